@@ -1,25 +1,86 @@
 """Differentiate and remove absurd samples: the two local operations of the seed's chain.
 
 Both work on a stretch that carries its neighbours on either side and give back the inner part, so that a long
-log can be processed stretch after stretch without seams. Source: the seed paper, section 4.1.
+log can be processed stretch after stretch without seams. Source: the seed paper, section 4.1; Fornberg,
+Mathematics of Computation 51 (1988), for the weights of the differentiator.
 """
 
 import numpy as np
+from scipy.ndimage import maximum_filter1d
 
 from ..arrays import InstantSeries, JointSeries
 
+REACH = 3
+"""Samples on either side that a derivative is computed from."""
 
-def centred_difference(values: JointSeries, rate_hz: float) -> InstantSeries:
-    """Differentiate along time; the first and last sample are consumed.
 
-    (x[k+1] - x[k-1]) rate / 2 belongs to instant k exactly, and is exact for a quadratic.
+def differentiate(values: JointSeries, rate_hz: float) -> InstantSeries:
+    """Differentiate along time by the maximally flat difference of seven samples; three at each end go.
+
+    It belongs to the middle instant exactly, and is exact for polynomials up to order six. A sine of w rad
+    per sample comes out too small by w^6 / 140: at a twentieth of the rate by 7e-6, where the difference of
+    two neighbours gives 1.6e-2.
 
     Examples
     --------
-    >>> centred_difference(np.array([[0.0], [1.0], [4.0], [9.0]]), 1.0).ravel()
-    array([2., 4.])
+    >>> differentiate(np.arange(8.0)[:, None] ** 2, 1.0).ravel()
+    array([6., 8.])
     """
-    return np.asarray((values[2:] - values[:-2]) * (0.5 * rate_hz))
+    count = len(values) - 2 * REACH
+
+    def apart(steps: int) -> InstantSeries:
+        later, earlier = values[REACH + steps :][:count], values[REACH - steps :][:count]
+        return np.asarray(later - earlier)
+
+    return np.asarray((45.0 * apart(1) - 9.0 * apart(2) + apart(3)) * (rate_hz / 60.0))
+
+
+def differentiate_throughout(values: JointSeries, rate_hz: float) -> InstantSeries:
+    """Differentiate at every sample; within three of an end only a straight line comes out exactly."""
+    return differentiate(continued(values, REACH), rate_hz)
+
+
+def continued(values: JointSeries, samples: int) -> InstantSeries:
+    """Continue a series beyond both ends by turning it about its end points."""
+    return np.pad(values, ((samples, samples), (0, 0)), mode="reflect", reflect_type="odd")
+
+
+BEYOND_BENDS = 2.0
+"""A sample is absurd that lies further from its running median than so many times the sharpest bend of the
+medians about it, times the samples that these see on either side. A parabola's vertex lies a quarter of one
+away; white noise does so seven times in a thousand samples."""
+BENDS = 3
+"""The bends of so many reaches of the median on either side are looked at."""
+
+
+def without_absurd(values: JointSeries, order: int) -> InstantSeries:
+    """Replace absurd samples by their running median of odd order; `absurd_reach` samples at either end go.
+
+    All others stay as they are: a running median flattens every turning point.
+
+    Examples
+    --------
+    >>> curve = np.arange(-10.0, 11.0)[:, None] ** 2
+    >>> without_absurd(curve, 5).ravel()
+    array([1., 0., 1.])
+    >>> curve[11] = 100.0
+    >>> without_absurd(curve, 5).ravel()
+    array([1., 0., 4.])
+    """
+    if order == 1:
+        return values
+    side = order // 2
+    medians = median(values, order)
+    bends = np.abs(medians[2:] - 2.0 * medians[1:-1] + medians[:-2])
+    wide, reach = BENDS * side, absurd_reach(order)
+    sharpest = maximum_filter1d(bends, 2 * wide + 1, axis=0)[wide : len(bends) - wide]
+    inner, usual = values[reach : len(values) - reach], medians[wide + 1 : len(medians) - wide - 1]
+    return np.asarray(np.where(np.abs(inner - usual) > BEYOND_BENDS * side * sharpest, usual, inner))
+
+
+def absurd_reach(order: int) -> int:
+    """Count the samples on either side by which one is judged."""
+    return 0 if order == 1 else (BENDS + 1) * (order // 2) + 1
 
 
 def median(values: JointSeries, order: int) -> InstantSeries:

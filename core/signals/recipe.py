@@ -13,7 +13,7 @@ from ..arrays import JointSeries, JointVector, Mask
 from ..errors import OptionError
 from ..log.model import JointLog, LogRows
 from ..robot.joint_units import largest_of_kind
-from .derivative import median
+from .derivative import absurd_reach, continued, differentiate_throughout, without_absurd
 from .resample import uniform
 from .zero_phase import HIGHEST_ORDER
 
@@ -254,9 +254,10 @@ def _low_pass_hz(rate_hz: float) -> float:
 def _velocity(rows: LogRows, rate_hz: float, median_order: int) -> JointSeries:
     """Differentiate without the absurd samples, which would otherwise pass for quick motion."""
     _, position, _ = uniform(rows, rate_hz)
+    padded = continued(position, absurd_reach(median_order))
     low = signal.butter(2, _low_pass_hz(rate_hz), fs=rate_hz, output="sos")
-    smooth = signal.sosfiltfilt(low, median(position, median_order), axis=0)
-    return np.asarray(np.gradient(smooth, 1.0 / rate_hz, axis=0))
+    smooth = signal.sosfiltfilt(low, without_absurd(padded, median_order), axis=0)
+    return differentiate_throughout(smooth, rate_hz)
 
 
 def _power(velocity: JointSeries, rate_hz: float) -> np.ndarray:

@@ -1,7 +1,8 @@
 """Condition one gap-free part of a log, any stretch of it by itself, by the seed's chain.
 
-Running median, zero-phase Butterworth on q, centred differences; what these reach of the ends and of rows
-that are missing for long, and every standstill, is marked unusable. Source: the seed paper, section 4.1.
+Running median of absurd samples, zero-phase Butterworth on q, differences of seven samples; what these reach
+of the ends and of rows that are missing for long, and every standstill, is marked unusable. Source: the seed
+paper, section 4.1.
 """
 
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ from scipy.signal import oaconvolve
 from ..arrays import Instants, InstantSeries, JointMask, JointSeries, JointVector, SampleMask, Samples
 from ..log.defects.clock import GAP_STEPS, longest_bridge
 from ..log.model import JointLog, LogRows
-from .derivative import centred_difference, median
+from .derivative import REACH, absurd_reach, differentiate, without_absurd
 from .parallel import ParallelFilter, Tile
 from .recipe import Recipe, is_usable
 from .resample import dropped_mask, gap_mask, is_uniform, on_grid
@@ -69,7 +70,7 @@ class Segment:
     @cached_property
     def reach(self) -> int:
         """Count the samples on either side that bear on a conditioned one."""
-        return reach_of(self.low_pass, END_SHARE) + self.recipe.median_order // 2 + 2
+        return reach_of(self.low_pass, END_SHARE) + absurd_reach(self.recipe.median_order) + 2 * REACH
 
     def tile(self, effort_scale: JointVector, first_kept: int, last_kept: int, block: int) -> Tile:
         """Condition the stretch that the kept instants from first up to, not including, last need."""
@@ -99,16 +100,16 @@ class Segment:
 
     def _condition(self, begin: int, end: int) -> tuple[MotionState, JointSeries, SampleMask]:
         """Give state, torque, and what rests on instants at which nothing was measured."""
-        halo = self.recipe.median_order // 2 + len(self.low_pass) // 2 + 2
+        halo = absurd_reach(self.recipe.median_order) + len(self.low_pass) // 2 + 2 * REACH
         left, right = max(0, begin - halo), min(self.samples, end + halo)
         position, torque, bridge = self._read(left, right)
         padded = _extend(position, halo - (begin - left), halo - (right - end))
         smooth = oaconvolve(
-            median(padded, self.recipe.median_order), self.low_pass[:, None], mode="valid", axes=0
+            without_absurd(padded, self.recipe.median_order), self.low_pass[:, None], mode="valid", axes=0
         )
-        velocity = centred_difference(smooth, self.rate_hz)
-        acceleration = centred_difference(velocity, self.rate_hz)
-        state = MotionState(smooth[2:-2], velocity[1:-1], acceleration)
+        velocity = differentiate(smooth, self.rate_hz)
+        acceleration = differentiate(velocity, self.rate_hz)
+        state = MotionState(smooth[2 * REACH : -2 * REACH], velocity[REACH:-REACH], acceleration)
         inner = slice(begin - left, len(torque) - (right - end))
         unknown = maximum_filter1d(bridge, 2 * self.reach + 1, mode="constant") if bridge.any() else bridge
         return state, torque[inner], unknown[inner]

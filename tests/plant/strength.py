@@ -118,7 +118,7 @@ def regressor(robot: RobotModel, signals: Signals) -> np.ndarray:
 def differentiation_error(arm: Arm, ideal: Signals, spoilt: Signals) -> np.ndarray:
     """Give the torque error (N m) that a log with spoilt instants or angles makes below 20 Hz.
 
-    Both logs go through a zero-phase low-pass and central differences; their torques through the true arm
+    Both logs go through a zero-phase low-pass and flat differences; their torques through the true arm
     differ by the error, less what the logged torque itself changed by.
     """
     rate_hz = 1.0 / (ideal.time[1] - ideal.time[0])
@@ -127,12 +127,22 @@ def differentiation_error(arm: Arm, ideal: Signals, spoilt: Signals) -> np.ndarr
     needed = []
     for one in (ideal, spoilt):
         position = signal.sosfiltfilt(low, counted(one), axis=0)
-        velocity = np.gradient(position, 1.0 / rate_hz, axis=0)
-        acceleration = np.gradient(velocity, 1.0 / rate_hz, axis=0)
+        velocity = _slope(position, rate_hz)
+        acceleration = _slope(velocity, rate_hz)
         drives = arm.rotor_inertia * acceleration + arm.viscous * velocity
         needed.append(inverse(model, (position, velocity, acceleration)) + drives)
     logged = spoilt.torque[spoilt.kept] - ideal.torque
     return np.asarray(signal.sosfiltfilt(low, logged, axis=0) - (needed[1] - needed[0]))
+
+
+def _slope(values: np.ndarray, rate_hz: float) -> np.ndarray:
+    """Differentiate along time by seven samples; within three of an end by fewer."""
+    flat = signal.convolve(
+        values, np.array([[1.0, -9.0, 45.0, 0.0, -45.0, 9.0, -1.0]]).T / 60.0, mode="valid"
+    )
+    slope = np.gradient(values, 1.0 / rate_hz, axis=0)
+    slope[3:-3] = rate_hz * flat
+    return np.asarray(slope)
 
 
 @cache

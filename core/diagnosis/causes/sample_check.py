@@ -17,7 +17,7 @@ from ...arrays import JointSeries, JointVector
 from ...dynamics.prediction import Prediction
 from ...dynamics.terms.effect import step_of
 from ...signals.condition import Motion
-from ...signals.derivative import median
+from ...signals.derivative import absurd_reach, continued, differentiate_throughout, without_absurd
 from ...signals.state import MotionState
 from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
@@ -99,11 +99,11 @@ def _corrupted(
     # The measured motion has its error already; the motion to be corrupted must be smoother.
     band = SAMPLE_CHECKS.smooth_over_motion * recipe.motion_band_hz
     smooth = _filtered(measured, min(band, SAMPLE_CHECKS.smooth_over_rate * rate_hz), rate_hz)
-    corrupted = smooth + corrupt(smooth, np.gradient(smooth, 1.0 / rate_hz, axis=0), rng)
+    corrupted = smooth + corrupt(smooth, differentiate_throughout(smooth, rate_hz), rng)
     error = _without_spikes(corrupted, recipe.median_order) - _without_spikes(smooth, recipe.median_order)
     error = _filtered(error, recipe.position_cutoff_hz, rate_hz)
-    rate = np.gradient(error, 1.0 / rate_hz, axis=0)
-    second = np.gradient(rate, 1.0 / rate_hz, axis=0)
+    rate = differentiate_throughout(error, rate_hz)
+    second = differentiate_throughout(rate, rate_hz)
     return replace(
         state,
         position=state.position + error[::thin],
@@ -120,5 +120,4 @@ def _filtered(values: JointSeries, cutoff_hz: float, rate_hz: float) -> JointSer
 
 
 def _without_spikes(values: JointSeries, order: int) -> JointSeries:
-    reach = order // 2
-    return median(np.pad(values, ((reach, reach), (0, 0)), mode="edge"), order)
+    return without_absurd(continued(values, absurd_reach(order)), order)

@@ -16,6 +16,7 @@ from scipy.stats import binom, norm
 from ...arrays import JointSeries, Vector
 from ...dynamics.prediction import Prediction
 from ...log.model import LogRows
+from ...signals.derivative import differentiate_throughout
 from ...signals.resample import dropped_mask, is_uniform, on_grid
 from ...signals.segment import Segment
 from ...signals.zero_phase import kernel
@@ -93,7 +94,7 @@ def _parts(segment: Segment) -> Iterator[tuple[JointSeries, JointSeries, float]]
     smooth = oaconvolve(position, low_pass[:, None], mode="valid", axes=0)
     remainder = position[reach:-reach] - smooth
     share = 1.0 - 2.0 * float(low_pass[reach]) + float(low_pass @ low_pass)
-    yield remainder, np.gradient(smooth, 1.0 / rate_hz, axis=0), share
+    yield remainder, differentiate_throughout(smooth, rate_hz), share
 
 
 def _even(rows: LogRows, rate_hz: float) -> JointSeries:

@@ -216,8 +216,7 @@ def _place_stretches(parts: Sequence[DatasetSegment]) -> tuple[Stretch, ...]:
 def _options(log: JointLog, width: float, robot: RobotModel) -> FilterOptions:
     """Choose the bandwidth of a diagnosis from the motion's own, and rows that fall on thinned states.
 
-    A running median flattens every turning point of a position, which leaves as much torque as a small
-    effect: it is used only where there are spikes.
+    Absurd positions are replaced only where the log is known to have some.
     """
     band = choose_recipe(log, FilterOptions(), prismatic_joints(robot)).motion_band_hz
     cutoff = min(width * band, log.rate_hz / BAND.rate)

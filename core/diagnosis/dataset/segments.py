@@ -67,6 +67,7 @@ def _segment(
     small = response[middle % thin :: thin]
     parallel = ParallelFilter(small / small.sum() * response.sum(), recipe.decimation // thin)
     at = tile.first + recipe.decimation * np.arange(len(tile.time))
+    settled = _settled(at, len(tile.state.position), segment.rate_hz / recipe.cutoff_hz)
     fraction = (done + np.arange(*kept)) / motion.kept
     stretch = Stretch(state, parallel, (tile.first - begin) // thin, slice(0, len(tile.time)))
     return DatasetSegment(
@@ -76,7 +77,7 @@ def _segment(
         time=tile.time,
         block=np.minimum((fraction * motion.blocks).astype(int), motion.blocks - 1),
         torque=tile.filtered(np.ascontiguousarray(_torque_without_spikes(motion.log, tile.torque).T)).T,
-        usable=tile.usable,
+        usable=tile.usable & settled[:, None],
         clear=_clear(rest_mask(tile.state, robot, still), at, segment.rate_hz / recipe.cutoff_hz),
         state=tile.state.at(at),
     )
@@ -103,6 +104,12 @@ def thinning(rate_hz: float, cutoff_hz: float) -> int:
     6
     """
     return max(1, int(rate_hz / (BAND.states * cutoff_hz)))
+
+
+def _settled(at: Indices, samples: int, period: float) -> np.ndarray:
+    """Tell which kept instants are so far from the ends of their stretch that what remembers has settled."""
+    reach = int(np.ceil(ROWS.settling_periods * period))
+    return np.asarray((at >= reach) & (at < samples - reach))
 
 
 def _clear(turns: np.ndarray, at: Indices, period: float) -> JointMask:

@@ -200,8 +200,9 @@ def with_candidate(fitter: HypothesisFitter, now: Hypothesis, scored: ScoredCand
 
 
 def _explained_share(now: Hypothesis, trial: Hypothesis) -> float:
+    """Give the share of the mean square that a trial takes away, as noise has a share of it."""
     rows = min((len(joint.torque) for joint in trial.fit.joints if len(joint.torque)), default=1)
-    return likelihood_ratio(now, trial) / rows
+    return float(-np.expm1(-likelihood_ratio(now, trial) / rows))
 
 
 def _least_share(fitter: HypothesisFitter, member: Candidate) -> float:

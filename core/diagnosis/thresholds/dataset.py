@@ -48,6 +48,9 @@ class Rows:
     """Seconds of all logs together that are used, and of every segment that are examined for jitter."""
     stretch_seconds: float = 30.0
     """Seconds of one stretch of a long log."""
+    settling_periods: float = 3.0
+    """Periods of the band's edge at either end of a stretch that are left out: what remembers (springs, filters)
+    starts there from rest, and smoothed columns are continued beyond."""
     reversal_periods: float = 1.0
     """Periods of the cut-off around a reversal in which rows are set apart. Source: the filter's ringing."""
     still_share: float = 0.01

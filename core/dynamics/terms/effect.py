@@ -12,6 +12,7 @@ import numpy as np
 from ...arrays import JointSeries, Samples, Series
 from ...robot.joint_units import joint_unit
 from ...robot.model import Parameter, RobotModel
+from ...signals.derivative import differentiate_throughout
 from ...signals.state import MotionState
 from ..term import Entry, Term
 
@@ -127,17 +128,10 @@ def step_of(state: MotionState) -> float:
 
 
 def rates(values: JointSeries, state: MotionState) -> tuple[JointSeries, JointSeries]:
-    """Differentiate columns of three samples or more, once and twice, by centred differences.
-
-    One-sided at the ends, where the second derivative is that of the neighbour.
-    """
-    step = step_of(state)
-    first, second = np.empty_like(values, dtype=float), np.empty_like(values, dtype=float)
-    first[1:-1] = (values[2:] - values[:-2]) / (2.0 * step)
-    first[0], first[-1] = (values[1] - values[0]) / step, (values[-1] - values[-2]) / step
-    second[1:-1] = (values[2:] - 2.0 * values[1:-1] + values[:-2]) / step**2
-    second[0], second[-1] = second[1], second[-2]
-    return np.asarray(first), second
+    """Differentiate columns once and twice, as positions are differentiated."""
+    rate_hz = 1.0 / step_of(state)
+    first = differentiate_throughout(values, rate_hz)
+    return first, differentiate_throughout(first, rate_hz)
 
 
 def without_rounding(torques: Sequence[JointSeries]) -> list[JointSeries]:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pinocchio as pin
-from scipy import signal
+from scipy import ndimage, signal
 
 from tests.core.signals.motions import Multisine
 from tests.tools import Motion, pinocchio_model, pinocchio_torque, random_bodies
@@ -52,13 +52,28 @@ def filtered_by_scipy(series: np.ndarray, cutoff_hz: float) -> np.ndarray:
     return signal.sosfiltfilt(signal.butter(ORDER, cutoff_hz, fs=RATE_HZ, output="sos"), series, axis=0)
 
 
+def _without_absurd(position: np.ndarray) -> np.ndarray:
+    """Take the median of five where a sample is off by four bends of the medians six samples around."""
+    medians = signal.medfilt(position, 5)
+    bends = np.abs(np.convolve(medians, [1.0, -2.0, 1.0], mode="same"))
+    nearby = ndimage.grey_dilation(bends, size=13)
+    return np.where(np.abs(position - medians) > 4.0 * nearby, medians, position)
+
+
+def _derivative_by_scipy(series: np.ndarray) -> np.ndarray:
+    """Differentiate by the weights that are exact for polynomials up to order six."""
+    powers = np.vander(np.arange(-3.0, 4.0), increasing=True).T
+    weights = np.linalg.solve(powers, np.eye(7)[1])
+    return RATE_HZ * ndimage.correlate1d(series, weights, axis=0, mode="nearest")
+
+
 def observation_by_scipy(study: Recorded) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Give every column by its name and the torque, kept instants by joints, without any code of ours."""
     smooth = filtered_by_scipy(
-        np.column_stack([signal.medfilt(one, 5) for one in study.position.T]), POSITION_CUTOFF_HZ
+        np.column_stack([_without_absurd(one) for one in study.position.T]), POSITION_CUTOFF_HZ
     )
-    velocity = np.gradient(smooth, 1.0 / RATE_HZ, axis=0)
-    acceleration = np.gradient(velocity, 1.0 / RATE_HZ, axis=0)
+    velocity = _derivative_by_scipy(smooth)
+    acceleration = _derivative_by_scipy(velocity)
     model = pinocchio_model(study.robot, study.bodies)
     data = model.createData()
     rigid = np.array(
