@@ -51,7 +51,7 @@ def arm():
 @pytest.mark.parametrize("way", sorted(SPOILERS))
 def test_what_is_spoilt_is_named_and_nothing_else(arm, way):
     robot, log, sound = arm
-    found = answer(SPOILERS[way](robot, log, np.random.default_rng(14)), sound)
+    found = answer(SPOILERS[way](robot, log, np.random.default_rng(16)), sound)
     assert found.exact, found
 
 
