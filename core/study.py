@@ -6,7 +6,6 @@ This is the only module that meets every chapter; each step takes what the step 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from .conflicts.check import Conflicts, check
@@ -19,6 +18,7 @@ from .document.diagnosis import diagnosis_document
 from .document.identification import grouping_row, identification_document
 from .document.numbers import plain
 from .document.reference import reference_from_document
+from .document.version import product_version
 from .dynamics.model import standard_model
 from .errors import OptionError, SolverError
 from .estimate.problem import Problem
@@ -90,13 +90,20 @@ def identify(request: IdentifyRequest, progress: Progress | None = None) -> dict
     task = _Task(request, parse_options(request.options))
     found, conflicts = _identify(task, progress or _no_progress)
     write_traces(task.asked.traces, found)
-    document = identification_document(found, version=_version(), options=task.options.given)
+    document = identification_document(found, version=product_version(), options=task.options.given)
     return with_conflicts(document, conflict_rows(conflicts, request.robot, request.logs))
 
 
 def identify_in_full(request: IdentifyRequest, progress: Progress | None = None) -> Identification:
     """Identify a robot and give every chapter's result."""
-    return _identify(_Task(request, parse_options(request.options)), progress or _no_progress)[0]
+    return identify_with_conflicts(request, progress)[0]
+
+
+def identify_with_conflicts(
+    request: IdentifyRequest, progress: Progress | None = None
+) -> tuple[Identification, Conflicts]:
+    """Identify a robot and give every chapter's result, and what was found to disagree."""
+    return _identify(_Task(request, parse_options(request.options)), progress or _no_progress)
 
 
 def _identify(task: _Task, tell: Progress) -> tuple[Identification, Conflicts]:
@@ -179,7 +186,7 @@ def diagnose(request: IdentifyRequest, progress: Progress | None = None) -> dict
     task = _Task(request, parse_diagnose_options(request.options))
     found, conflicts = _diagnose(task, progress or _no_progress)
     write_traces(task.asked.traces, found.before, found)
-    document = diagnosis_document(found, version=_version(), options=task.options.given)
+    document = diagnosis_document(found, version=product_version(), options=task.options.given)
     return with_conflicts(document, conflict_rows(conflicts, request.robot, request.logs))
 
 
@@ -285,10 +292,3 @@ def base_parameters(robot: RobotModel) -> dict[str, object]:
 
 def _no_progress(_stage: str, _fraction: float) -> None:
     pass
-
-
-def _version() -> str:
-    try:
-        return version("veritorque")
-    except PackageNotFoundError:
-        return "0.1.0"

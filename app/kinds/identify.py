@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, cast
 
+from pydantic import BaseModel
+
 from ...core.export.formats import FORMATS
 from ...core.report.page.running import Origin
 from ..schemas.results import ResultDocument
@@ -25,7 +27,7 @@ class Identify(JobKind["IdentifyOptions"]):
     """Identify a robot from its logs."""
 
     name = "identify"
-    result = ResultDocument
+    result: ClassVar[type[BaseModel]] = ResultDocument
     words = Words(
         title="Identification",
         hint=(

@@ -6,11 +6,12 @@ from operator import or_
 from typing import Any
 
 from ...core.errors import OptionError
+from .check import Check
 from .diagnose import Diagnose
 from .identify import Identify
 from .kind import JobKind
 
-KINDS: Mapping[str, JobKind[Any]] = {kind.name: kind for kind in (Identify(), Diagnose())}
+KINDS: Mapping[str, JobKind[Any]] = {kind.name: kind for kind in (Identify(), Diagnose(), Check())}
 RESULT_DOCUMENT: Any = reduce(or_, (kind.result for kind in KINDS.values()))
 """The model of a result document of any kind."""
 

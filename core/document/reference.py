@@ -39,6 +39,12 @@ def reference_from_document(document: Document, robot: RobotModel, name: str) ->
         If the result is another robot's, or does not say how well its parameters are known together.
     """
     _check_robot(document, robot, name)
+    if "base_parameters" not in document:
+        raise OptionError(
+            f"the result of {name} holds no identified parameters",
+            evidence={"reference": name, "kind": document.get("kind")},
+            remedy="name a job that identifies or diagnoses the robot",
+        )
     document = plain_document(document)
     model = model_of_result(document, robot)
     base = base_model(model)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters, wrist_robot
-from veritorque.core import study
+from veritorque.core.document.version import product_version
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.errors import LogError, OptionError, VeritorqueError
 from veritorque.core.log.model import ArraySource, JointLog, LogRows, whole_rows
@@ -295,7 +295,7 @@ def test_sabotage_a_solver_that_ignores_the_links_breaks_feasibility(monkeypatch
 
 
 def test_the_version_in_the_document_is_that_of_the_package():
-    assert identify(_request())["provenance"]["version"] == study._version()
+    assert identify(_request())["provenance"]["version"] == product_version()
 
 
 def test_a_log_given_twice_is_refused_because_it_is_no_more_data(tmp_path):

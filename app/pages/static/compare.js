@@ -3,9 +3,8 @@ import { get } from "./api.js";
 import { showDifferences } from "./differences.js";
 import { element, fill } from "./dom.js";
 import { showError } from "./problem.js";
-import { ago, plain, short } from "./words.js";
+import { KINDS, ago, plain, short } from "./words.js";
 
-const KINDS = { identify: "Identification", diagnose: "Diagnosis" };
 const SIDES = ["left", "right"];
 const container = document.getElementById("compare");
 
@@ -71,7 +70,7 @@ async function start() {
 
 async function successful() {
   const page = await get("/v1/jobs?limit=1000");
-  return page.jobs.filter((job) => job.state === "successful");
+  return page.jobs.filter((job) => job.state === "successful" && job.links.report);
 }
 
 async function namesOf() {

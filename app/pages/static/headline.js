@@ -47,8 +47,8 @@ function figure(big, small, kind = null) {
   return element("div", {}, element("strong", { class: kind }, big), element("span", {}, small));
 }
 
-// The warnings of conflicts come first among them, and have a card of their own.
-function warnings(document) {
+/** Show the warnings. Those of conflicts come first among them, and have a card of their own. */
+export function warnings(document) {
   const doubts = (document.doubts ?? []).slice(document.conflicts?.length ?? 0);
   if (!doubts.length) return null;
   return element("div", { class: "notice" }, element("strong", {}, "Warnings"),

@@ -118,7 +118,7 @@ export function askQuestion(container) {
     if (!robot) return;
     const { jobs } = await get("/v1/jobs?limit=100");
     if (known.robot !== robot) return; // another one was chosen meanwhile
-    const earlier = jobs.filter((job) => job.robot === robot.id && job.state === "successful");
+    const earlier = jobs.filter((job) => job.robot === robot.id && job.links.report);
     const list = [
       ["", "a new identification from these logs"],
       robot.description.prior ? ["prior", "prior (bodies of its description)"] : null,

@@ -7,6 +7,7 @@ import { showExcitation } from "./excitation.js";
 import { showFindings, showRemainder } from "./findings.js";
 import { showHeadline } from "./headline.js";
 import { showParameters } from "./parameters.js";
+import { CHECKED, showAgreement } from "./setup.js";
 import { showError } from "./problem.js";
 import { showResiduals } from "./residuals.js";
 import { showExport } from "./export.js";
@@ -22,7 +23,8 @@ export async function show(container, job) {
   fill(container, element("p", { class: "waiting", role: "status" }, "Loading the result …"));
   const [document, report] = await Promise.all([get(job.links.results, { headers: { Accept: "application/json" } }), reportOf(job)]);
   const study = { job, document, report, traces: tracesOf(job, document) };
-  const all = document.diagnosis ? [...DIAGNOSED, ...COMMON] : COMMON;
+  const checked = document.kind === "check";
+  const all = checked ? CHECKED : document.diagnosis ? [...DIAGNOSED, ...COMMON] : COMMON;
   const sections = job.links.traces ? all : all.filter(([id]) => !TRACED.has(id));
   const conflicts = element("div", {});
   const headline = element("div", {});
@@ -30,7 +32,7 @@ export async function show(container, job) {
     element("h2", { id: `${id}-title` }, title), element("div", { class: "content" })));
   fill(container, conflicts, headline, contents(sections), parts);
   showConflicts(conflicts, study);
-  showHeadline(headline, study);
+  (checked ? showAgreement : showHeadline)(headline, study);
   sections.forEach(([, , draw], place) => whenSeen(parts[place], (content) => draw(content, study)));
 }
 
@@ -52,6 +54,7 @@ const COMMON = [
 const TRACED = new Set(["torque", "residuals", "motion"]);
 
 async function reportOf(job) {
+  if (!job.links.report) return null;
   const text = await (await request(job.links.report)).text();
   const unstyled = text.replace(/<style>.*?<\/style>/s, ""); // the page's own styles serve what is taken over
   return new DOMParser().parseFromString(unstyled, "text/html"); // inert: nothing of it runs or is loaded

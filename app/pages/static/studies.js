@@ -2,11 +2,10 @@
 import { follow, get } from "./api.js";
 import { element, fill } from "./dom.js";
 import { showError } from "./problem.js";
-import { ago, duration, percent, plain, short } from "./words.js";
+import { KINDS, ago, duration, percent, plain, short } from "./words.js";
 
 const AT_A_TIME = 10;
 const AGAIN_MS = 2000;
-const KINDS = { identify: "Identification", diagnose: "Diagnosis" };
 
 /** Show the studies, keep unfinished ones up to date, and offer older ones. */
 export async function showStudies(container) {
@@ -142,8 +141,10 @@ function took(job) {
 
 function onward(job) {
   if (job.state === "successful") {
+    const result = element("a", { href: `/studies/${job.id}` }, "result");
+    if (!job.links.report) return result;
     return [
-      element("a", { href: `/studies/${job.id}` }, "result"),
+      result,
       follow(element("a", { href: job.links.report, download: null }, "report")),
       element("a", { href: `/compare?first=${encodeURIComponent(job.id)}` }, "compare"),
     ];

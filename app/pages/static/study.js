@@ -5,9 +5,8 @@ import { followJob } from "./events.js";
 import { problemBox, showError } from "./problem.js";
 import { show } from "./result.js";
 import { state } from "./studies.js";
-import { ago, duration, percent, plain, short } from "./words.js";
+import { KINDS, ago, duration, percent, plain, short } from "./words.js";
 
-const KINDS = { identify: "Identification", diagnose: "Diagnosis" };
 const container = document.getElementById("study");
 const id = location.pathname.split("/")[2]; // stays as it is written in the address
 

@@ -91,3 +91,6 @@ export function unitOf(trace, type) {
   if (prismatic === undefined) return revolute;
   return type === "prismatic" ? prismatic : revolute;
 }
+
+/** What the studies of a kind are called. */
+export const KINDS = { identify: "Identification", diagnose: "Diagnosis", check: "Set-up check" };

@@ -22,6 +22,8 @@ class Imitation:
     share: float = ALTERNATIVES.similar_share
     """A lead of less than this share of a finding's likelihood ratio decides nothing: the columns of a real
     robot are not exact, and their error grows with the effect."""
+    by_motion: bool = True
+    """Whether a motion separates the two; torque never does where it is false."""
 
 
 IMITATIONS: tuple[Imitation, ...] = (
@@ -165,6 +167,7 @@ IMITATIONS: tuple[Imitation, ...] = (
         "kinematic_error",
         "a zero error of the joint equals an error of theta in its row of the table",
         "measure the tool's position against the joint angles: torque alone cannot separate the two",
+        by_motion=False,
     ),
     Imitation(
         "encoder_offset",

@@ -57,6 +57,16 @@ class Unnamed:
 
 
 @dataclass(frozen=True)
+class Separation:
+    """Decide which causes a log can tell apart, before any is searched for. All are set by hand."""
+
+    width: float = 20.0
+    """Ratio of the band to the motion's: half that of a diagnosis, because rows cost time."""
+    scalars: int = 3
+    """Values of a cause's scalars that are tried, from its whole grid."""
+
+
+@dataclass(frozen=True)
 class Confidence:
     """Turn a finding's evidence into a probability that its cause is the right one.
 
@@ -91,5 +101,5 @@ class Size:
     """Share of a joint's RMS torque, left by model and findings, from which on the model does not fit it."""
 
 
-SIZE = Size()
+SIZE, SEPARATION = Size(), Separation()
 ALTERNATIVES, VERDICT, UNNAMED, CONFIDENCE = Alternatives(), Verdict(), Unnamed(), Confidence()

@@ -37,6 +37,7 @@ PROMISED = {
     "/v1/robots/{robot_id}/base-parameters": {"GET"},
     "/v1/logs": {"GET", "POST"},
     "/v1/logs/{log_id}": {"GET", "DELETE"},
+    "/v1/logs/{log_id}/readings": {"POST"},
     "/v1/logs/{log_id}/traces": {"GET"},
     "/v1/jobs": {"GET", "POST"},
     "/v1/jobs/{job_id}": {"GET", "DELETE"},

@@ -9,7 +9,7 @@ from tests.app.http.test_server import listening_service
 from tests.app.stubs import StubExecutor
 from tests.app.terminal.conftest import ROOT
 from tests.app.terminal.test_examples import called
-from tests.core.report.documents import diagnosed
+from tests.core.report.documents import checked, diagnosed
 from veritorque.app.json_text import json_bytes
 from veritorque.app.kinds.registry import KINDS
 from veritorque.app.terminal.backend.local import LocalBackend
@@ -36,7 +36,8 @@ def test_every_command_of_the_guide_runs_in_the_order_of_reading(
         if report is not None:
             report.write_text("drawn")
         asked.append(study)
-        return identified.read_bytes() if study.kind == "identify" else json_bytes(diagnosed())
+        made = {"diagnose": diagnosed, "check": checked}
+        return identified.read_bytes() if study.kind == "identify" else json_bytes(made[study.kind]())
 
     monkeypatch.setattr(LocalBackend, "run", computed)
     executor = StubExecutor()

@@ -243,3 +243,65 @@ def nothing_found():
     after = {"validation": [], "base_parameters": []}
     simulation = {"before": {}, "after": {}}
     return diagnosed(verdict="nothing_found", findings=[], gain=[], after=after, simulation=simulation)
+
+
+def checked(**changes):
+    whole = identified()
+    taken = ("schema_version", "robot", "logs", "provenance", "counts", "terms", "fit", "fit_total_percent")
+    more = ("validation", "validation_total_percent", "condition_number", "defects")
+    return {
+        "kind": "check",
+        "agreement": "after_correction",
+        "conflicts": [conflict()],
+        "doubts": ["its conflict", "Motion is short"],
+        **{key: whole[key] for key in (*taken, *more)},
+        "held_out": [],
+        "identifiable": [
+            {key: parameter(name)[key] for key in ("name", "joint", "unit", "grouping")}
+            | {"relative_deviation_percent": percent, "identifiable": answer}
+            for name, percent, answer in (
+                ("ZZR1", 2.0, "yes"),
+                ("MX2", 40.0, "poorly"),
+                ("MY2", None, "needs_motion"),
+            )
+        ],
+        "shown": [
+            {
+                "cause": "joint_elasticity",
+                "title": "Joint elasticity",
+                "visible": True,
+                "not_on_joints": [2],
+                "smallest": [
+                    {
+                        "joints": [1],
+                        "name": "stiffness",
+                        "unit": "N m/rad",
+                        "bound": "at_most",
+                        "value": 1500.0,
+                    }
+                ],
+                "experiment": "motion with large accelerations",
+            },
+            {
+                "cause": "torque_ripple",
+                "title": "Torque ripple",
+                "visible": False,
+                "not_on_joints": [1, 2],
+                "smallest": [],
+                "experiment": "slow motion over the whole range",
+            },
+        ],
+        "separable": {
+            "joint_elasticity": {"torque_ripple": "needs_motion"},
+            "torque_ripple": {"joint_elasticity": "needs_motion"},
+        },
+        "not_separable": [
+            {
+                "causes": ["joint_elasticity", "torque_ripple"],
+                "answer": "needs_motion",
+                "joints": [],
+                "why": "this motion shows both on no joint together",
+                "experiment": "motion with large accelerations",
+            }
+        ],
+    } | changes

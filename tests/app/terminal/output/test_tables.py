@@ -8,10 +8,12 @@ import pytest
 from rich.console import Console
 
 from tests.app.terminal.conftest import run
-from tests.core.report.documents import conflict, diagnosed
+from tests.core.report.documents import checked, conflict, diagnosed
 from veritorque.app.json_text import json_bytes
+from veritorque.app.schemas.setup_check import CheckDocument
 from veritorque.app.terminal.output.columns import Column, print_table
 from veritorque.app.terminal.output.findings import print_diagnosis
+from veritorque.app.terminal.output.setup_check import print_check
 from veritorque.app.terminal.output.tables import effort_column, print_result
 
 COMMANDS = {
@@ -110,3 +112,25 @@ def test_conflicts_and_warnings_come_before_every_result(show):
     }
     assert lines[end + 2] == "Warning: Motion is short"
     assert "its conflict" not in told.getvalue()
+
+
+def test_a_check_says_whether_it_agrees_and_what_the_log_shows():
+    told = io.StringIO()
+    CheckDocument.model_validate(checked())
+    print_check(Console(file=told, width=160), checked())
+    text = told.getvalue()
+    order = [
+        "Robot and log disagree",
+        "Warning: Motion is short",
+        "once they are corrected",
+        "1 of 3 identifiable",
+        "Poorly: MX2.",
+        "Only with another motion: MY2.",
+        "<1500",
+        "Not separable: joint elasticity and torque ripple: this motion shows both on no joint",
+    ]
+    assert [text.index(words) for words in order] == sorted(text.index(words) for words in order)
+    assert re.search(r"torque ripple +all", text)
+    short = io.StringIO()
+    print_check(Console(file=short, width=160), checked(shown=[], separable={}, not_separable=[]))
+    assert "too short for a diagnosis" in short.getvalue()

@@ -1,0 +1,144 @@
+"""Compose the document of a set-up check: whether robot and logs belong together, and what the logs show."""
+
+from typing import Literal
+
+import numpy as np
+
+from ..conflicts.check import Conflicts
+from ..diagnosis.causes.protocol import Site
+from ..diagnosis.causes.registry import BY_ID
+from ..diagnosis.separability import Pair, Separability, Shown, Smallest
+from ..identification.doubts import contradictions
+from ..identification.result import Identification
+from ..precision.inference import relative_deviation_percent
+from .identification import grouping_row, identification_document
+from .numbers import plain
+
+POOR_PERCENT = 30.0
+"""Relative deviation above which a parameter counts as poorly known. Set by hand, as the page of a result
+marks it."""
+_TAKEN_OVER = (
+    "schema_version",
+    "robot",
+    "logs",
+    "provenance",
+    "counts",
+    "terms",
+    "fit",
+    "fit_total_percent",
+    "validation",
+    "validation_total_percent",
+    "held_out",
+    "condition_number",
+    "defects",
+    "doubts",
+)
+Agreement = Literal["yes", "after_correction", "doubtful"]
+
+
+def check_document(
+    found: Identification,
+    conflicts: Conflicts,
+    separable: Separability | None,
+    *,
+    version: str,
+    options: object,
+) -> dict[str, object]:
+    """Compose the document, without the conflicts themselves."""
+    whole = identification_document(found, version=version, options=options)
+    document = {
+        "kind": "check",
+        "agreement": _agreement(found, conflicts),
+        **{key: whole[key] for key in _TAKEN_OVER},
+        "identifiable": _identifiable(found),
+        "shown": [] if separable is None else _causes(separable.shown),
+        "separable": {} if separable is None else _matrix(separable.pairs),
+        "not_separable": []
+        if separable is None
+        else [_pair(pair) for pair in separable.pairs if pair.answer != "yes"],
+    }
+    return {key: plain(value) for key, value in document.items()}
+
+
+def _agreement(found: Identification, conflicts: Conflicts) -> Agreement:
+    """Say whether robot and logs belong together: doubtful where something contradicts the model."""
+    open_conflicts = bool(conflicts.found) and not conflicts.applied
+    if open_conflicts or any(conflicts.stamp_factors) or contradictions(found):
+        return "doubtful"
+    return "after_correction" if conflicts.found else "yes"
+
+
+def _identifiable(found: Identification) -> list[dict[str, object]]:
+    percent = relative_deviation_percent(found.estimate.base, found.precision.standard_deviation)
+    known = np.isfinite(found.precision.standard_deviation)
+    return [
+        {
+            **grouping_row(found.base, row),
+            "relative_deviation_percent": percent[row] if known[row] else None,
+            "identifiable": "needs_motion"
+            if not known[row]
+            else "yes"
+            if percent[row] <= POOR_PERCENT
+            else "poorly",
+        }
+        for row in range(len(found.base.kept))
+    ]
+
+
+def _causes(shown: tuple[Shown, ...]) -> list[dict[str, object]]:
+    """Say per cause on which joints these logs can show it, and from which size on."""
+    sites: dict[str, list[Shown]] = {}
+    for one in shown:
+        sites.setdefault(one.cause.id, []).append(one)
+    return [
+        {
+            "cause": name,
+            "title": own[0].cause.title,
+            "visible": any(one.visible for one in own),
+            "not_on_joints": sorted({joint for one in own if not one.visible for joint in one.site}),
+            "smallest": [_size(one.smallest, one.site) for one in own if one.smallest is not None],
+            "experiment": own[0].cause.experiment,
+        }
+        for name, own in sites.items()
+    ]
+
+
+def _size(smallest: Smallest, site: Site) -> dict[str, object]:
+    quantity = smallest.quantity
+    return {
+        "joints": site,
+        "name": quantity.name,
+        "unit": quantity.unit,
+        "bound": "at_most" if smallest.falls else "at_least",
+        "value": abs(quantity.value),
+    }
+
+
+def _matrix(pairs: tuple[Pair, ...]) -> dict[str, dict[str, str]]:
+    """Tabulate causes by causes."""
+    table: dict[str, dict[str, str]] = {}
+    for pair in pairs:
+        first, second = pair.causes
+        table.setdefault(first, {})[second] = pair.answer
+        table.setdefault(second, {})[first] = pair.answer
+    return table
+
+
+def _pair(pair: Pair) -> dict[str, object]:
+    """Say why two causes are not told apart, and which experiment does it."""
+    first, second = pair.causes
+    if pair.known is not None:
+        why, experiment = pair.known.why, pair.known.experiment
+    elif pair.joints:
+        why = "the torque of both is nearly the same in this motion"
+        experiment = BY_ID[second].experiment
+    else:
+        why = "this motion shows both on no joint together"
+        experiment = f"{BY_ID[first].experiment}; {BY_ID[second].experiment}"
+    return {
+        "causes": [first, second],
+        "answer": pair.answer,
+        "joints": pair.joints,
+        "why": why,
+        "experiment": experiment,
+    }
