@@ -123,12 +123,14 @@ def _shown(candidate: Candidate, score: Score, fit: Fit, kinds: int) -> Shown:
 
 
 def _smallest(candidate: Candidate, score: Score, fit: Fit, kinds: int) -> Smallest | None:
-    """Give the size at which the likelihood ratio reaches what entry asks for."""
+    """Give the size at which the likelihood ratio reaches what entry asks for; None where a part is open."""
     level = ENTRY.level / (candidate.trials * kinds)
     joints = [joint - 1 for joint in candidate.site] or range(len(fit.left))
     explained = ENTRY.least_share * min(float(fit.left[joint] @ fit.left[joint]) for joint in joints)
     statistic = max(float(chi2.isf(level, score.freedom)), explained)
-    deviations = np.sqrt(np.diag(score.covariance))
+    deviations = np.sqrt(np.maximum(np.diag(score.covariance), 0.0))
+    if not deviations.all():
+        return None
 
     def quantities(scale: float) -> tuple[Quantity, ...]:
         size = scale * np.sqrt(statistic) * deviations

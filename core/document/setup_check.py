@@ -8,9 +8,9 @@ from ..conflicts.check import Conflicts
 from ..diagnosis.causes.protocol import Site
 from ..diagnosis.causes.registry import BY_ID
 from ..diagnosis.separability import Pair, Separability, Shown, Smallest
-from ..identification.doubts import contradictions
 from ..identification.result import Identification
 from ..precision.inference import relative_deviation_percent
+from ..validation.scores import quality
 from .identification import grouping_row, identification_document
 from .numbers import plain
 
@@ -61,9 +61,13 @@ def check_document(
 
 
 def _agreement(found: Identification, conflicts: Conflicts) -> Agreement:
-    """Say whether robot and logs belong together: doubtful where something contradicts the model."""
-    open_conflicts = bool(conflicts.found) and not conflicts.applied
-    if open_conflicts or any(conflicts.stamp_factors) or contradictions(found):
+    """Say whether robot and logs belong together.
+
+    It is doubtful where a conflict is not corrected, or the model fails to predict a joint.
+    """
+    left_open = bool(conflicts.found) and not conflicts.applied
+    failed = any(quality(score.nrmse_of_rms_percent) == "failed" for score in found.validation or found.fit)
+    if left_open or failed or any(conflicts.stamp_factors):
         return "doubtful"
     return "after_correction" if conflicts.found else "yes"
 

@@ -21,7 +21,7 @@ export function showAgreement(container, { job, document }) {
     warnings(document),
     element("p", { class: `verdict ${kind ?? ""}` }, verdict),
     element("div", { class: "figures" },
-      figure(relative(held), "torque error, RMS of residual over RMS of torque, on data that were not fitted"),
+      figure(relative(held), `torque error on ${document.validation.length ? "held-out" : "the fitted"} data, RMS of residual over RMS of torque`),
       figure(`${sure} of ${document.identifiable.length}`, "base parameters are identifiable from this motion"),
       document.shown.length ? figure(`${seen} of ${document.shown.length}`, "causes of simulation error would show in this log") : null),
     element("p", {}, element("a", { class: "button", href: `/new?${wanted}` }, "Continue with an analysis"))));
@@ -39,8 +39,8 @@ function figure(big, small) {
 
 function showErrors(container, { document }) {
   const held = new Map(document.validation.map((row) => [row.joint, row]));
-  fill(container, table("Error of the predicted torque per joint", ["Joint", "RMS torque", "Fitted, % of RMS", "Held out, % of RMS"],
-    document.fit.map((row) => [row.joint, number(row.rms_torque), relative(row.nrmse_of_rms_percent), relative(held.get(row.joint)?.nrmse_of_rms_percent)])));
+  fill(container, table("Error of the predicted torque per joint", ["Joint", "RMS torque", "Fitted, % of RMS", "Held out, % of RMS", "Prediction"],
+    document.fit.map((row) => [row.joint, number(row.rms_torque), relative(row.nrmse_of_rms_percent), relative(held.get(row.joint)?.nrmse_of_rms_percent), (held.get(row.joint) ?? row).quality ?? ""])));
 }
 
 function showIdentifiable(container, { document }) {
