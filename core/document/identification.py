@@ -81,8 +81,11 @@ def model_fields(found: Identification) -> dict[str, object]:
 
 
 def score_rows(scores: Sequence[JointScore]) -> list[dict[str, object]]:
-    """Tabulate the errors per joint, each with a word for it."""
-    return [{**vars(score), "quality": quality(score.nrmse_of_rms_percent)} for score in scores]
+    """Tabulate the errors per joint, each with a word for it where there are rows to judge by."""
+    return [
+        {**vars(score), "quality": quality(score.nrmse_of_rms_percent) if score.samples else None}
+        for score in scores
+    ]
 
 
 def base_parameter_rows(found: Identification) -> list[dict[str, object]]:

@@ -16,7 +16,6 @@ from ..dynamics.model import DynamicModel
 from ..reduction.base import BaseModel
 from ..robot.inertia import pseudo_inertia
 from .constraints import Bounds, Prior, congruence, link_columns, lower_bounds
-from .programme import refusal
 from .with_clarabel import SVEC_IDENTITY, svec_rows
 
 _CAP = 1.0
@@ -26,21 +25,16 @@ _CAP = 1.0
 class Feasibility:
     """Tell whether a physically consistent robot exists.
 
-    `margin` is the largest least scaled eigenvalue (or signed parameter) any choice reaches.
+    `margin` is the largest least scaled eigenvalue (or signed parameter) any choice reaches. Both are None
+    where the programme has no accurate optimum, as for values that a motion leaves open to any size.
     """
 
-    feasible: bool
-    margin: float
+    feasible: bool | None
+    margin: float | None
 
 
 def feasibility(base: BaseModel, values: BaseParameters, prior: Prior) -> Feasibility:
-    """Maximise the margin t over all standard parameters that group into the given base parameters.
-
-    Raises
-    ------
-    SolverError
-        If the small programme has no accurate optimum.
-    """
+    """Maximise the margin t over all standard parameters that group into the given base parameters."""
     model, scale = base.model, prior.scale
     size = len(scale)
     own = np.linalg.norm(base.grouping * scale, axis=1)
@@ -72,9 +66,8 @@ def _maximise(rows: list[np.ndarray], right: list[np.ndarray], cones: list[objec
     answer = clarabel.DefaultSolver(
         quadratic, linear, sparse.csc_matrix(np.vstack(rows)), np.concatenate(right), cones, settings
     ).solve()
-    status = str(answer.status)
-    if status not in ("Solved", "AlmostSolved"):
-        raise refusal("stopped", status=status, solver="clarabel", iterations=int(answer.iterations))
+    if str(answer.status) not in ("Solved", "AlmostSolved"):
+        return Feasibility(None, None)
     margin = float(answer.x[-1])
     return Feasibility(margin > -1e-7, margin)
 

@@ -77,7 +77,8 @@ def _joint_cost(found: Identification) -> JointVector:
 def _signs(found: Identification) -> list[str]:
     # Least squares leaves a smaller residual than the estimate that the deviations were taken from.
     deviation = found.precision.standard_deviation / np.sqrt(found.estimate.cost_ratio)
-    ratio = found.estimate.unconstrained / deviation
+    known = deviation > 0.0
+    ratio = np.divide(found.estimate.unconstrained, deviation, out=np.zeros_like(deviation), where=known)
     negative = {
         found.base.names[row]
         for row in range(len(found.base.kept))

@@ -45,7 +45,13 @@ class Identification:
 
     @property
     def feasible(self) -> bool:
-        """Tell whether the robot is consistent; its mass matrix counts where links are modelled."""
+        """Tell whether the robot is consistent; its mass matrix counts where links are modelled.
+
+        Where the margin of its base parameters is not known, its own bodies tell.
+        """
+        consistent = self.estimate_feasibility.feasible
+        if consistent is None:
+            consistent = all(value > 0.0 for value in self.pseudo_inertia_eigenvalues)
         if not self.pseudo_inertia_eigenvalues:
-            return self.estimate_feasibility.feasible
-        return self.estimate_feasibility.feasible and self.trajectory.positive and self.workspace.positive
+            return consistent
+        return consistent and self.trajectory.positive and self.workspace.positive

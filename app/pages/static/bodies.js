@@ -2,7 +2,7 @@
 import { drawChain } from "./chain.js";
 import { element, fill } from "./dom.js";
 import { wide } from "./wide.js";
-import { number, plural, relative } from "./words.js";
+import { consistency, number, plural, relative } from "./words.js";
 
 /** Show the bodies. */
 export function showBodies(container, { document }) {
@@ -27,7 +27,7 @@ function facts(feasibility, solver, robot) {
   const cost = solver.objective_ols > 0 ? solver.objective / solver.objective_ols - 1 : null;
   return [
     element("li", {}, element("strong", {}, feasibility.feasible ? "The identified parameters are physically consistent. " : "The identified parameters are physically inconsistent. "),
-      `Those of ordinary least squares are ${feasibility.ols_feasible ? "consistent as well" : "inconsistent"}.`),
+      `Those of ordinary least squares are ${consistency(feasibility.ols_feasible)}.`),
     cost === null ? null : element("li", {}, `Cost of the consistency constraint: squared error ${relative(100 * cost)} above the least-squares optimum.`),
     mass.workspace === undefined ? null : element("li", {}, `Mass matrix: smallest eigenvalue ${number(mass.trajectory, 3)} along the motion, ${number(mass.workspace, 3)} in ${plural("configuration", mass.configurations)} of the workspace, ${unitOfMassMatrix(robot)}.`),
     active.length ? activeConstraints(active) : element("li", {}, "No constraint is active: every body lies in the interior of the feasible set."),

@@ -1,7 +1,7 @@
 // Show the headline of a result and its key figures.
 import { follow } from "./api.js";
 import { element, fill } from "./dom.js";
-import { plural, relative } from "./words.js";
+import { consistency, plural, relative } from "./words.js";
 
 /** Show the verdict and the key figures. */
 export function showHeadline(container, { job, document, report }) {
@@ -32,7 +32,8 @@ function figures(document) {
       `base parameters are essential; they group ${plural("standard parameter", counts.standard)}`),
     best ? figure(relative(best.relative_deviation_percent), `%P of ${best.name}, the best determined essential parameter; the worst, ${worst.name}, has ${relative(worst.relative_deviation_percent)}`) : null,
     figure(feasibility.feasible ? "Physically consistent" : "Physically inconsistent",
-      `the identified parameters; those of ordinary least squares are ${feasibility.ols_feasible ? "consistent as well" : "inconsistent"}`, feasibility.feasible ? "good" : "bad"),
+      `the identified parameters; those of ordinary least squares are ${consistency(feasibility.ols_feasible)}`,
+      feasibility.feasible ? (byError.every((row) => row.quality === "good") ? "good" : null) : "bad"),
   ];
 }
 

@@ -22,6 +22,12 @@ export function count(value) {
     .replace(/\B(?=(\d{3})+$)/g, "\u202f");
 }
 
+/** Whether a robot can exist: true, false, or null where it is not known. */
+export function consistency(feasible) {
+  if (feasible === null || feasible === undefined) return "of unknown consistency";
+  return feasible ? "physically consistent" : "physically inconsistent";
+}
+
 /** How many, with its noun: plural("joint", 2) is "2 joints". */
 export function plural(noun, many) {
   return `${count(many)} ${noun}${many === 1 ? "" : "s"}`;

@@ -85,9 +85,10 @@ def consistency(document: Document) -> list[str]:
     if not found:
         return []
     objective, least = (number(solver.get(name), 4) for name in ("objective", "objective_ols"))
-    own, ols = ("" if found.get(name) else "in" for name in ("feasible", "ols_feasible"))
+    words = {True: "consistent", False: "inconsistent", None: "unknown"}
+    own, ols = (words[found.get(name)] for name in ("feasible", "ols_feasible"))
     sentences = [
-        f"Identified parameters: {own}consistent; ordinary least squares: {ols}consistent.",
+        f"Identified parameters: {own}; ordinary least squares: {ols}.",
         *_smallest_eigenvalues(document, found),
         f"Cost of the consistency constraint: objective {objective}, ordinary least squares {least}.",
         f"Solver: {solver.get('status')}.",
