@@ -14,6 +14,7 @@ from ..errors import OptionError
 from ..log.model import JointLog, LogRows
 from ..robot.joint_units import largest_of_kind
 from .derivative import absurd_reach, continued, differentiate_throughout, without_absurd
+from .noise_band import ATTENUATION, OUTWEIGHED, noise_cutoff
 from .resample import uniform
 from .zero_phase import HIGHEST_ORDER
 
@@ -22,6 +23,8 @@ MOTION_SHARE = 0.995
 PARALLEL_OVER_MOTION = 10.0
 """The parallel filter passes ten times the motion's band. Products of the joints' motions lie above each of
 them."""
+LEAST_OVER_MOTION = 0.5
+"""However noisy the positions are, half of the motion's band is passed: below it most motion is lost."""
 POSITION_OVER_PARALLEL = 5.0
 """Positions keep a band five times wider. So that their filter does not bend what the parallel filter
 passes."""
@@ -142,7 +145,8 @@ def choose_recipe(log: JointLog, options: FilterOptions, prismatic: Mask | None 
     band = float(moving.max()) if len(moving) else 1.0
     nyquist = 0.5 * min(rate, slowest)
     highest = min(0.4 * rate, 0.9 * nyquist)
-    cutoff = _or_default(options.cutoff_hz, min(PARALLEL_OVER_MOTION * band, highest / 2.0))
+    wanted, why = _parallel_cutoff(survey, band, speeds > still_speed, rate)
+    cutoff = _or_default(options.cutoff_hz, min(wanted, highest / 2.0))
     position = _or_default(options.position_cutoff_hz, min(POSITION_OVER_PARALLEL * cutoff, highest))
     for name, value in (("cutoff_hz", cutoff), ("position_cutoff_hz", position)):
         if not LOWEST_SHARE * band < value < nyquist:
@@ -152,8 +156,7 @@ def choose_recipe(log: JointLog, options: FilterOptions, prismatic: Mask | None 
                 remedy=f"give a cut-off above {LOWEST_SHARE * band:.3g} Hz and below {nyquist:.6g} Hz",
             )
     decimation = options.decimation or max(1, int(0.4 * rate / cutoff))
-    chosen = f"{PARALLEL_OVER_MOTION:g} times the motion's band of {band:.3g} Hz"
-    reason = chosen if options.cutoff_hz is None else "given"
+    reason = why if options.cutoff_hz is None else "given"
     return Recipe(
         median_order=options.median_order,
         position_cutoff_hz=position,
@@ -209,6 +212,18 @@ def _still_speed(survey: "_Survey", prismatic: Mask) -> JointVector:
     return still
 
 
+def _parallel_cutoff(survey: "_Survey", band: float, moving: Mask, rate_hz: float) -> tuple[float, str]:
+    """Choose the parallel filter's cut-off (Hz) by the motion's band and the noise of positions; say why."""
+    wide = PARALLEL_OVER_MOTION * band
+    quiet = max(noise_cutoff(survey.positions, rate_hz, band, moving), LEAST_OVER_MOTION * band)
+    if wide <= quiet * (OUTWEIGHED / ATTENUATION) ** 0.2:
+        return wide, f"{PARALLEL_OVER_MOTION:g} times the motion's band of {band:.3g} Hz"
+    return quiet, (
+        f"above it the noise of positions would attenuate what is fitted by more than"
+        f" {100.0 * ATTENUATION:g} %; the motion's band is {band:.3g} Hz"
+    )
+
+
 def _or_default(asked: float | None, chosen: float) -> float:
     return chosen if asked is None else asked
 
@@ -223,6 +238,8 @@ class _Survey:
     """RMS speed of every joint (rad/s or m/s)."""
     noisy: Mask
     """Joints whose velocity is noise only."""
+    positions: list[JointSeries]
+    """The windows' positions on a uniform clock."""
     slowest: float
     """Mean rate (Hz) of the slowest window: rows that were never recorded make it less than the log's."""
 
@@ -235,7 +252,8 @@ def _survey(log: JointLog, median_order: int) -> _Survey:
     firsts = np.linspace(start, stop - length, count).astype(int)
     read = [log.source.rows(int(first), int(first) + length) for first in firsts]
     slowest = min((length - 1) / float(rows.time[-1] - rows.time[0]) for rows in read)
-    velocities = [_velocity(rows, log.rate_hz, median_order) for rows in read]
+    positions = [_position(rows, log.rate_hz, median_order) for rows in read]
+    velocities = [_velocity(position, log.rate_hz) for position in positions]
     speeds = np.sqrt(np.mean([np.mean(velocity**2, axis=0) for velocity in velocities], axis=0))
     power = np.mean([_power(velocity, log.rate_hz) for velocity in velocities], axis=0)
     frequency = np.fft.rfftfreq(2 * (power.shape[0] - 1), 1.0 / log.rate_hz)
@@ -244,19 +262,23 @@ def _survey(log: JointLog, median_order: int) -> _Survey:
         np.array([frequency[np.argmax(share >= wanted)] for share in held.T])
         for wanted in (MOTION_SHARE, 0.5)
     )
-    return _Survey(bands, speeds, middles > NOISY_SHARE * _low_pass_hz(log.rate_hz), slowest)
+    noisy = middles > NOISY_SHARE * _low_pass_hz(log.rate_hz)
+    return _Survey(bands, speeds, noisy, positions, slowest)
 
 
 def _low_pass_hz(rate_hz: float) -> float:
     return min(0.2 * rate_hz, 40.0)
 
 
-def _velocity(rows: LogRows, rate_hz: float, median_order: int) -> JointSeries:
-    """Differentiate without the absurd samples, which would otherwise pass for quick motion."""
+def _position(rows: LogRows, rate_hz: float, median_order: int) -> JointSeries:
+    """Leave out the absurd samples, which would otherwise pass for quick motion."""
     _, position, _ = uniform(rows, rate_hz)
-    padded = continued(position, absurd_reach(median_order))
+    return without_absurd(continued(position, absurd_reach(median_order)), median_order)
+
+
+def _velocity(position: JointSeries, rate_hz: float) -> JointSeries:
     low = signal.butter(2, _low_pass_hz(rate_hz), fs=rate_hz, output="sos")
-    smooth = signal.sosfiltfilt(low, without_absurd(padded, median_order), axis=0)
+    smooth = signal.sosfiltfilt(low, position, axis=0)
     return differentiate_throughout(smooth, rate_hz)
 
 
