@@ -46,7 +46,7 @@ def diagnosed(browser, service):
 
 @pytest.fixture(scope="session")
 def reversed_log(browser, service):
-    """The address of a study of the example's beginning, in which torque 2 was recorded reversed."""
+    """The id of a log of the example's beginning, in which torque 2 was recorded reversed."""
     head, *rows = [line.split(",") for line in LOG.read_text().splitlines()[: 1 + REVERSED_SAMPLES]]
     torque = head.index("tau_2")
     for row in rows:
@@ -58,19 +58,23 @@ def reversed_log(browser, service):
         headers={"Content-Type": "text/csv"},
         timeout=120_000,
     ).json()["id"]
-    job = page.request.post(
-        f"{service}/v1/jobs",
-        data={"kind": "identify", "robot": "yumi-left", "logs": [log], "options": QUICK},
-        timeout=120_000,
-    ).json()["id"]
     page.close()
-    return f"/studies/{job}"
+    return log
+
+
+def started(page, service, kind, log):
+    """Start a study of a log, and open its page when it is finished."""
+    body = {"kind": kind, "robot": "yumi-left", "logs": [log], "options": QUICK}
+    job = page.request.post(f"{service}/v1/jobs", data=body, timeout=120_000).json()["id"]
+    page.goto(f"{service}/studies/{job}")
+    page.locator(".headline").wait_for(timeout=180_000)
+    return page.url
 
 
 def test_a_conflict_is_applied_by_a_click_and_the_new_study_has_none(look, service, reversed_log):
-    page = look(service).open(reversed_log)
+    page = look(service).page
+    first = started(page, service, "identify", reversed_log)
     card = page.locator(".conflict")
-    card.wait_for(timeout=180_000)
     before = document_of(page)
     assert card.locator("h2").inner_text().startswith("Robot and log disagree: reverse the sign of")
     card.locator("summary").click()
@@ -78,11 +82,25 @@ def test_a_conflict_is_applied_by_a_click_and_the_new_study_has_none(look, servi
     shown = json.loads(card.locator("pre").inner_text())
     assert shown == {"mapping": conflict["correction"]["mapping"]}
     page.get_by_role("button", name="Apply and start again").click()
-    page.wait_for_url(lambda address: reversed_log not in address)
+    page.wait_for_url(lambda address: address != first)
     page.locator(".headline").wait_for(timeout=180_000)
     after = document_of(page)
     assert (after["conflicts"], page.locator(".conflict").count()) == ([], 0)
     assert after["base_parameters"] == before["base_parameters"]
+
+
+def test_a_set_up_check_has_a_page_of_its_own_without_barriers(look, service, reversed_log):
+    seen = look(service, width=390, height=800)
+    started(seen.page, service, "check", reversed_log)
+    page = drawn(seen.page, ["errors", "parameters", "causes"])
+    document = document_of(page)
+    assert "belong together once they are corrected" in page.locator(".headline").inner_text()
+    assert page.locator("#parameters .chips li").count() == document["counts"]["base"]
+    assert page.locator("#causes tbody tr").count() == len(document["shown"])
+    assert page.locator("#causes .content > ul > li").count() == len(document["not_separable"])
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    seen.photograph("result_check_phone")
+    assert seen.barriers() == []
 
 
 def drawn(page, sections):
