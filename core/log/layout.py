@@ -23,6 +23,9 @@ from .refusals import absent_names, contradiction_error, missing_error, unit_err
 OTHER_NAME = "a column of another name is mapped, with its unit"
 OTHER_FILE = "if they are in another file, join the two: veritorque logs join A B -o run.parquet"
 
+UNNEEDED = ("optional", "reference")
+"""Needs of channels that a log may lack. One sensor for an arm, or a channel of some joints, is left out."""
+
 
 @dataclass(frozen=True)
 class Layout:
@@ -149,11 +152,11 @@ def _bind_default(channel: str, columns: tuple[str, ...], table: Table) -> Bindi
 
 
 def _is_other(bound: Binding, position: Binding, mapping: LogMapping) -> bool:
-    """Tell whether the default names of a reference mean something else.
+    """Tell whether the default names of a channel that no computation needs mean something else.
 
     They are mapped to another channel, or are not one per joint.
     """
-    if CHANNELS[bound.name].need != "reference" or bound.name in mapping.channels:
+    if CHANNELS[bound.name].need not in UNNEEDED or bound.name in mapping.channels:
         return False
     mapped = {column for request in mapping.channels.values() if request for column in request.columns}
     return bool(mapped & set(bound.columns)) or len(bound.columns) != len(position.columns)
@@ -169,7 +172,7 @@ def _default_columns(channel: Channel, table: Table) -> tuple[str, ...]:
     highest = max(int(name[len(prefix) + 1 :]) for name in numbered)
     wanted = _default_names(channel, highest)
     if len(numbered) < highest:
-        if channel.need == "reference":
+        if channel.need in UNNEEDED:
             return ()
         raise missing_error(channel.name, wanted, table, f"log {channel.name} of every joint; {OTHER_NAME}")
     return tuple(wanted)
@@ -247,7 +250,7 @@ def _one_column_per_joint(channels: Sequence[Binding]) -> None:
 
 def _is_dispensable(channel: str, present: Collection[str]) -> bool:
     need = CHANNELS[channel].need
-    return need in ("optional", "reference") or (need == "effort" and set(EFFORTS) <= set(present))
+    return need in UNNEEDED or (need == "effort" and set(EFFORTS) <= set(present))
 
 
 def _used_columns(channels: Sequence[Binding]) -> list[str]:

@@ -76,10 +76,20 @@ def test_a_rate_beside_a_time_column_is_refused(tmp_path):
 def test_a_channel_mapped_to_null_is_left_out_and_listed(tmp_path):
     columns = swing(joints=2)
     columns["temperature_1"] = np.full(3000, np.nan)
+    columns["temperature_2"] = np.full(3000, np.nan)
     path = write_parquet(tmp_path / "log.parquet", columns)
+    assert read_log(path, mapping={"temperature": None}).ignored_columns == ("temperature_1", "temperature_2")
+
+
+@pytest.mark.parametrize("named", [["temperature_1"], ["temperature_2"], ["temperature"]])
+def test_one_sensor_for_an_arm_is_left_out_and_listed_unless_it_is_mapped(tmp_path, named):
+    columns = swing(joints=2) | {name: np.full(3000, 30.0) for name in named}
+    path = write_parquet(tmp_path / "log.parquet", columns)
+    read = read_log(path)
+    assert list(read.ignored_columns) == named
+    assert "temperature" not in read.channels
     with pytest.raises(LogError, match="temperature does not have one column per joint"):
-        read_log(path)
-    assert read_log(path, mapping={"temperature": None}).ignored_columns == ("temperature_1",)
+        read_log(path, mapping={"temperature": {"columns": named, "unit": "degC"}})
 
 
 def test_an_undeclared_unit_is_answered_with_its_plausible_readings(tmp_path):
