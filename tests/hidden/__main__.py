@@ -3,7 +3,8 @@
 Run ``make hidden SEED=3 CASES=60``, with STRENGTH, CAUSE or KIND (single, combination, clean, foreign) to
 look at one thing only, or ``make battery SEED=3`` for the whole examination, which takes hours.
 ``make ablate`` halves and doubles every threshold of the diagnosis, and lists those that change no answer.
-``python -m tests.hidden regressions`` diagnoses the logs that were answered wrongly once.
+``python -m tests.hidden regressions`` diagnoses the logs that were answered wrongly once, and
+``python -m tests.hidden clean --world second`` those of another simulation in which nothing is hidden.
 """
 
 import argparse
@@ -18,7 +19,7 @@ from tests.hidden.score import Score
 from tests.hidden.tables import tables
 from tests.plant.effects.registry import EFFECTS
 
-COMMANDS = ("ablate", "calibrate", "regressions")
+COMMANDS = ("ablate", "calibrate", "clean", "regressions")
 """Modules of this folder with a task of their own, loaded late: one must not have loaded the diagnosis."""
 
 
