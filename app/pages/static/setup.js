@@ -79,7 +79,7 @@ function smallest({ smallest: sizes }) {
 }
 
 function table(caption, headings, rows) {
-  return scrolling(element("div", { class: "wide" }, element("table", {},
+  return scrolling(element("div", { class: "wide" }, element("table", { class: "checked" },
     element("caption", {}, caption),
     element("thead", {}, element("tr", {}, headings.map((heading) => element("th", { scope: "col" }, heading)))),
     element("tbody", {}, rows.map(([head, ...cells]) => element("tr", {}, element("th", { scope: "row" }, String(head)), cells.map((cell) => element("td", {}, String(cell)))))))), caption);
