@@ -134,6 +134,21 @@ class Client:
         """Ask for a diagnosis: what the simulation gets wrong, and why."""
         return self.submit("diagnose", robot, logs, options)
 
+    def check(
+        self, robot: RobotLike, logs: LogLike | Sequence[LogLike], options: Mapping[str, object] | None = None
+    ) -> dict[str, Any]:
+        """Check a set-up, and give the document with conflicts and what the logs show; see docs/conflicts.md.
+
+        Raises
+        ------
+        NoResultError
+            If it ends without a result.
+        """
+        job = self.submit("check", robot, logs, options)
+        self.finish(job)
+        document: dict[str, Any] = json.loads(self.result_bytes(job))
+        return document
+
     def submit(
         self,
         kind: str,

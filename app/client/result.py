@@ -179,7 +179,19 @@ class Result:
 
     @classmethod
     def from_document(cls, document: Document) -> Self:
-        """Read a result document."""
+        """Read a result document.
+
+        Raises
+        ------
+        OptionError
+            If it holds no identified robot.
+        """
+        if "base_parameters" not in document:
+            raise OptionError(
+                f"the document of a job of kind {document.get('kind')} holds no identified robot",
+                evidence={"kind": document.get("kind")},
+                remedy="read it as JSON: Client.result_bytes",
+            )
         diagnosis = document.get("diagnosis") or {"verdict": None, "findings": ()}
         return cls(
             document=document,

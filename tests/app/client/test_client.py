@@ -12,6 +12,7 @@ from tests.app.planar_arm import columns, csv_log, description
 from tests.app.stubs import RESULT, StubExecutor, failing
 from veritorque.app.client.client import Client
 from veritorque.app.client.errors import NoAnswerError, NoResultError, RefusedError
+from veritorque.app.client.result import Result
 from veritorque.core.errors import LogError, OptionError, RobotError
 
 
@@ -201,3 +202,9 @@ def test_an_id_is_one_step_of_the_path_whatever_it_holds(lab, name):
     with pytest.raises(RefusedError) as refused:
         lab.robot(name)
     assert refused.value.evidence["robot"] == name
+
+
+def test_a_check_gives_its_document_and_what_is_no_identified_robot_is_refused_as_a_result(lab, swing):
+    assert lab.check(description(), swing) == json.loads(json.dumps(RESULT))
+    with pytest.raises(OptionError, match="holds no identified robot"):
+        Result.from_document({"kind": "check"})
