@@ -82,4 +82,4 @@ class CheckDocument(Open):
         list[ShownCause], about("per cause that acts all the time; empty for logs too short for a diagnosis")
     ]
     separable: Annotated[dict[str, dict[str, Answer]], about("causes by causes")]
-    not_separable: Annotated[list[CausePair], about("the pairs whose answer is not yes, with the reason")]
+    not_separable: Annotated[list[CausePair], about("pairs of visible causes whose answer is not yes")]

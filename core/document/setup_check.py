@@ -53,9 +53,7 @@ def check_document(
         "identifiable": _identifiable(found),
         "shown": [] if separable is None else _causes(separable.shown),
         "separable": {} if separable is None else _matrix(separable.pairs),
-        "not_separable": []
-        if separable is None
-        else [_pair(pair) for pair in separable.pairs if pair.answer != "yes"],
+        "not_separable": [] if separable is None else _not_separable(separable),
     }
     return {key: plain(value) for key, value in document.items()}
 
@@ -126,6 +124,14 @@ def _matrix(pairs: tuple[Pair, ...]) -> dict[str, dict[str, str]]:
         table.setdefault(first, {})[second] = pair.answer
         table.setdefault(second, {})[first] = pair.answer
     return table
+
+
+def _not_separable(separable: Separability) -> list[dict[str, object]]:
+    """List the pairs that are not told apart, of causes that these logs can show at all."""
+    visible = {one.cause.id for one in separable.shown if one.visible}
+    return [
+        _pair(pair) for pair in separable.pairs if pair.answer != "yes" and visible.issuperset(pair.causes)
+    ]
 
 
 def _pair(pair: Pair) -> dict[str, object]:
