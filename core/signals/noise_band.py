@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy import signal
 
-from ..arrays import JointSeries, JointVector, Mask
+from ..arrays import JointSeries, JointVector, Mask, Matrix
 from .derivative import differentiate
 
 ATTENUATION = 1e-3
@@ -102,7 +102,7 @@ def own_acceleration(position: JointSeries, rate_hz: float, band_hz: float) -> J
     return np.asarray(np.where(np.mean(left**2, axis=0) < OWN_PART * whole, 0.0, own))
 
 
-def _left(values: JointSeries, columns: JointSeries) -> JointSeries:
+def _left(values: JointSeries, columns: Matrix) -> JointSeries:
     """Give what columns do not tell of some values."""
     scaled = columns / np.maximum(np.linalg.norm(columns, axis=0), np.finfo(float).tiny)
     return np.asarray(values - scaled @ np.linalg.lstsq(scaled, values, rcond=1e-10)[0])
