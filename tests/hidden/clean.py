@@ -1,7 +1,7 @@
 """Diagnose clean logs of the second world, in which the encoder's error is in the loop and in the log.
 
-Run ``python -m tests.hidden clean --world second``. It prints what is named on every log and a table. Smooth
-motion there is not solved: what a position's error does to torque and columns alike can pass for a spring.
+Run ``python -m tests.hidden clean --world second``. It prints what is named
+on every log and a table. What an error of a position does to torque and columns alike can pass for a spring.
 """
 
 import argparse

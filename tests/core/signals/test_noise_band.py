@@ -61,3 +61,10 @@ def test_a_measured_pendulum_with_noisy_positions_is_explained_on_motion_it_has_
     options = {"bootstrap": {"draws": 0}, "validation": {"logs": [4]}}
     found = identify_in_full(IdentifyRequest(robot_from_description(described), logs, options))
     assert found.validation_total_percent < most
+
+
+def test_the_noisiest_of_several_joints_decides_and_one_that_stands_does_not():
+    position = np.hstack([_wandering(1.0) + _noise(1e-5), _wandering(0.8) + _noise(1e-3)])
+    both = noise_cutoff([position], RATE_HZ, 1.0, np.array([True, True]))
+    first = noise_cutoff([position], RATE_HZ, 1.0, np.array([True, False]))
+    assert first > 3.0 * both
