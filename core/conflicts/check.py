@@ -1,6 +1,7 @@
 """Check a set-up: whether the stamps agree with the velocities, and which correction a doubtful fit needs."""
 
 from dataclasses import dataclass
+from itertools import takewhile
 
 from ..identification.identify import Fit
 from ..log.model import JointLog
@@ -41,4 +42,22 @@ def check(fit: Fit, logs: tuple[JointLog, ...], terms: tuple[str, ...] | None) -
         return Conflicts((), factors)
     problem = fit.problem
     trials = Trials(sampled(problem.motions, problem.held_out), terms)
-    return Conflicts(find_conflicts(Setup.as_described(problem.base.model.robot), trials), factors)
+    described = Setup.as_described(problem.base.model.robot)
+    found = find_conflicts(described, trials)
+    factor = next((factor for factor in factors if factor is not None), None)
+    if found and factor is not None:
+        found = _alike(found, find_conflicts(described.with_clock(1.0 / factor), trials))
+    return Conflicts(found, factors)
+
+
+def _alike(
+    described: tuple[FoundConflict, ...], by_velocity: tuple[FoundConflict, ...]
+) -> tuple[FoundConflict, ...]:
+    """Keep what is found by the clock of the stamps and by that of the velocities: either may be wrong.
+
+    A wrong clock makes inertias wrong, which another gravity may seem to mend.
+    """
+    pairs = zip(described, by_velocity, strict=False)
+    return tuple(
+        own for own, _ in takewhile(lambda pair: pair[0].hypothesis.key == pair[1].hypothesis.key, pairs)
+    )

@@ -40,6 +40,10 @@ class Setup:
         """Read the table in another way."""
         return replace(self, robot=replace(self.robot, links=links))
 
+    def with_clock(self, factor: float) -> "Setup":
+        """Multiply all stamps by a factor."""
+        return replace(self, assignment=replace(self.assignment, time_factor=factor))
+
     def revolute(self) -> tuple[int, ...]:
         """List the joints, from 0, that only revolute links have."""
         prismatic = {link.joint - 1 for link in self.robot.links if link.kind == "prismatic"}
