@@ -56,8 +56,8 @@ BAD_LOGS = {
     "NaN": table(change=put(7, 1, np.nan)),
     "infinity": table(change=put(7, 3, np.inf)),
     "joints that never move": table(change=put(slice(None), slice(1, 3), 0.5)),
-    "unsorted time": table(change=lambda data: data[::-1]),
-    "duplicate time": table(change=put(8, 0, 7 / 200)),
+    "time that starts again and again": table(change=lambda data: data[np.arange(len(data)) % 7 * 50]),
+    "one stamp for all": table(change=put(slice(None), 0, 0.1)),
     "torque all zero": table(change=put(slice(None), slice(3, 5), 0.0)),
     "words for numbers": table().replace(b"0.1", b"abc"),
     "100,000 columns": b",".join(b"q_%d" % n for n in range(100_000)) + b"\n",
@@ -65,7 +65,7 @@ BAD_LOGS = {
     "binary noise": bytes(range(256)) * 50,
     "an archive": gzip.compress(table()),
     "HTML": b"<html><body>not found</body></html>",
-    "a ragged table": table() + b"\n1,2,3",
+    "a ragged table": table() + b"1,2,3\n" + table().partition(b"\n")[2],
     "not UTF-8": b"time,q_1,tau_1\n\xff\xfe\xff,1,2\n",
 }
 
@@ -401,7 +401,7 @@ def test_a_job_request_that_does_not_follow_the_contract_is_refused_at_the_spot(
 
 def test_an_unknown_kind_of_job_is_refused_with_the_known_ones(client):
     problem = client.post("/v1/jobs", json=GOOD_JOB | {"kind": "guess"}).json()
-    assert "'identify' or 'diagnose'" in problem["evidence"]["errors"][0]["message"]
+    assert "'identify', 'diagnose' or 'check'" in problem["evidence"]["errors"][0]["message"]
 
 
 def test_a_robot_or_log_that_does_not_exist_is_named(client, log_id):
