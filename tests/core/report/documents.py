@@ -235,7 +235,9 @@ def diagnosed(**changes):
     document = identified(kind="diagnose", diagnosis=found)
     extended = {"name": "extended", "statement": "The extended model: the diagnosis added load_coefficient1"}
     return (
-        document | {"model": extended, "plain": identified(), "base_parameters": rows} if rows else document
+        document | {"model": extended, "plain": identified(bodies=[]), "base_parameters": rows}
+        if rows
+        else document
     )
 
 
