@@ -57,7 +57,7 @@ def test_another_service_gives_the_same_result_byte_for_byte(real, identified, t
 
 def test_a_result_reads_in_the_order_of_the_contract(real, identified):
     result = real.get(identified[0]["links"]["results"]).json()
-    assert list(result)[:3] == ["schema_version", "kind", "robot"]
+    assert list(result)[:5] == ["schema_version", "kind", "conflicts", "doubts", "robot"]
     assert list(result["base_parameters"][0])[:2] == ["name", "unit"]
     assert next(iter(result["robot"])) == "name"
 

@@ -184,7 +184,7 @@ def test_results_come_as_a_table_for_those_who_prefer_one(slow, executor, reques
     assert table.headers["content-type"].startswith("text/csv")
     header, row = table.text.splitlines()
     assert header.startswith("name,joint,unit,value,value_ols,")
-    assert row == "ZZR1,1,kg m2,0.5,0.6,0.01,2.0,true,ZZ1 + YY2"
+    assert row == "ZZR1,1,kg m2,0.5,0.6,0.01,2.0,true,ZZ1 + YY2,plain,0.5"
     assert slow.get(path + "/parameters.csv").text == table.text
     assert "in_combination" in slow.get(path + "/standard_parameters.csv").text
     assert_problem(slow.get(path, headers={"Accept": "image/png"}), 406, "not-acceptable")
