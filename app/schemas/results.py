@@ -57,9 +57,9 @@ class PlainModel(Open):
 
     counts: dict[str, int | None]
     base_parameters: list[BaseParameter]
-    terms: list[str]
+    terms: list[str] = Field(default=[])
     standard_parameters: list[StandardParameter]
-    bodies: list[Body]
+    bodies: list[Body] = Field(default=[])
     feasibility: dict[str, JsonValue]
     solver: dict[str, JsonValue]
     fit: list[JointFit]
