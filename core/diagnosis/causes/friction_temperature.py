@@ -34,7 +34,9 @@ class FrictionTemperature(OwnJointCause):
         """Scan the warm-up's time constant where no temperature is logged."""
         if at.dataset.state.temperature is not None:
             return NOTHING
-        return [{"time_constant": share * float(np.ptp(at.dataset.time))} for share in SHARES]
+        seconds = float(np.ptp(at.dataset.time))
+        constants = dict.fromkeys(max(share * seconds, ADMISSIBLE.least_warm_up) for share in SHARES)
+        return [{"time_constant": constant} for constant in constants]
 
     def term(self, at: Setting) -> Term:
         """Give the columns."""

@@ -7,7 +7,7 @@ import numpy as np
 
 from tests.core.diagnosis.scenes import Effect
 from veritorque.core.arrays import Samples
-from veritorque.core.diagnosis.causes.protocol import Cause, Scalars, SearchTraits
+from veritorque.core.diagnosis.causes.protocol import Cause, Quantity, Scalars, SearchTraits
 from veritorque.core.diagnosis.causes.shared.own_joint import NOTHING, OwnJointCause
 from veritorque.core.diagnosis.search.fitter import HypothesisFitter
 from veritorque.core.diagnosis.search.hypothesis import Candidate, Hypothesis
@@ -57,6 +57,13 @@ class MadeUpCause(OwnJointCause):
 
     def admissible(self, solved):
         return type(self).allowed(solved.scalars)
+
+    def quantities(self, solved):
+        deviations = np.sqrt(np.diag(solved.covariance))
+        return tuple(
+            Quantity(f"size_{place}", JOINT, "1", float(value), float(deviation))
+            for place, (value, deviation) in enumerate(zip(solved.values, deviations, strict=True))
+        )
 
     def statement(self, solved):
         return f"Joint {solved.site[0]} does as made up"
