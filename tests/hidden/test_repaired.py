@@ -21,7 +21,6 @@ from veritorque.core.robot.description import robot_from_description
 from veritorque.core.study import IdentifyRequest, diagnose
 
 DEVIATIONS = 3.0
-SECONDS = 15.0
 
 
 @dataclass(frozen=True)
@@ -32,6 +31,8 @@ class Taken:
     ----------
     share
         By how much of itself the error may exceed the extended model's.
+    seconds
+        Length of the log.
     """
 
     cause: str
@@ -39,12 +40,13 @@ class Taken:
     robot: str
     strength: float = 3.0
     share: float = 0.02
+    seconds: float = 15.0
 
 
 CASES = (
     Taken("gravity_misalignment", 8303, "ur10e", 1.0),
     Taken("encoder_offset", 8303, "ur10e"),
-    Taken("kinematic_error", 8304, "staubli-tx40", 1.0),
+    Taken("kinematic_error", 8304, "staubli-tx40", 1.0, seconds=30.0),
     Taken("rotor_inertia_missing", 8190, "planar-2"),
     Taken("joint_coupling", 8201, "planar-3"),
     Taken("time_delay", 8101, "planar-3", share=0.05),
@@ -58,7 +60,9 @@ CASES = (
 
 def diagnosed_twice(taken: Taken) -> tuple[Mapping[str, Any], Mapping[str, Any]]:
     """Give the diagnoses of the log and robot as they are, and as repaired."""
-    order = Order("single", taken.seed, taken.cause, taken.strength, robot=taken.robot, duration=SECONDS)
+    order = Order(
+        "single", taken.seed, taken.cause, taken.strength, robot=taken.robot, duration=taken.seconds
+    )
     case = drawn(order)
     options = {"bootstrap": {"draws": 0}}
     first: Any = diagnose(IdentifyRequest(case.believed, (case.log,), options))
