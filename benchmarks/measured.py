@@ -43,24 +43,24 @@ def _runs() -> dict[str, Run]:
         measured_log("ur10e_open", "fourier_30s_12h", 635, 3510),
         measured_log("ur10e_open", "fourier_20s_8h", 320, 2310),
     )
-    unseen = measured_log("ur10e_open", "fourier_40s_12h", 500, 4460)
+    held_out = measured_log("ur10e_open", "fourier_40s_12h", 500, 4460)
     panda = tuple(measured_log("franka_panda", "traj1", *rows) for rows in ((0, half), (half, FRANKA_ROWS)))
     tx40 = tuple(measured_log("staubli_tx40", "run1", *rows) for rows in (TX40_TRAIN, TX40_TEST))
     return {
         "TX40 without its coupling": Run(
             measured_robot("staubli_tx40", coupled=False), tx40, None, {5: 13.0, 6: 11.0}
         ),
-        "UR10e": Run(measured_robot("ur10e_open"), (*fitted, unseen), 3, {1: 5.6, 2: 2.2, 3: 2.7}),
+        "UR10e": Run(measured_robot("ur10e_open"), (*fitted, held_out), 3, {1: 5.6, 2: 2.2, 3: 2.7}),
         POINT_TO_POINT: _points(),
         "Panda": Run(measured_robot("franka_panda"), panda, 2),
         "Rokae": Run(measured_robot("rokae_xmate3"), (measured_log("rokae_xmate3", "excit"),), None),
     }
 
 
-def _points(fitted_until: int = 3510, unseen_until: int = 4200) -> Run:
+def _points(fitted_until: int = 3510, held_out_until: int = 4200) -> Run:
     logs = (
         measured_log("ur10e_open", "fourier_30s_12h", 635, fitted_until),
-        measured_log("ur10e_open", "validation_ptp_10pts", 700, unseen_until),
+        measured_log("ur10e_open", "validation_ptp_10pts", 700, held_out_until),
     )
     return Run(measured_robot("ur10e_open"), logs, 2)
 
@@ -78,7 +78,7 @@ def _figures(name: str, one: Run) -> list[Figure]:
                 f"{name}: {finding.cause}, joint {' '.join(map(str, finding.joints))}",
                 _gained(finding),
                 "",
-                "or " + ", ".join(rival.cause for rival in finding.ambiguous_with)
+                "or " + ", ".join(alternative.cause for alternative in finding.ambiguous_with)
                 if finding.ambiguous_with
                 else "",
             )
@@ -101,10 +101,10 @@ def _figures(name: str, one: Run) -> list[Figure]:
 
 
 def _gained(finding: Finding) -> str:
-    """Say what a finding takes from the error on unseen rows, and what it brings, weighed by the noise."""
+    """Say what a finding takes from the error on held-out rows, and what it brings, weighed by the noise."""
     if finding.gain is None:
         return ""
-    error = f"{finding.gain.total_percent:.0f} % gained on unseen motion"
+    error = f"{finding.gain.total_percent:.0f} % gained on held-out motion"
     compare_alternatives = [
         one.value for one in finding.evidence if one.statistic == "held-out likelihood ratio"
     ]

@@ -61,4 +61,4 @@ class Conflict(Open):
     statement: str
     remedy: str
     correction: Correction
-    ambiguous_with: Annotated[list[OtherConflict], about("what cannot be told apart from it")]
+    ambiguous_with: Annotated[list[OtherConflict], about("what cannot be distinguished from it")]

@@ -47,7 +47,7 @@ class ShownCause(Open):
 
 
 class CausePair(Open):
-    """Two causes that these logs do not tell apart."""
+    """Two causes that these logs do not distinguish."""
 
     causes: Annotated[list[str], Field(min_length=2, max_length=2)]
     answer: Answer

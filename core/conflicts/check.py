@@ -55,7 +55,7 @@ def _alike(
 ) -> tuple[FoundConflict, ...]:
     """Keep what is found by the clock of the stamps and by that of the velocities: either may be wrong.
 
-    A wrong clock makes inertias wrong, which another gravity may seem to mend.
+    A wrong clock makes inertias wrong, which another direction of gravity may seem to correct.
     """
     pairs = zip(described, by_velocity, strict=False)
     return tuple(

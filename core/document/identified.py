@@ -88,7 +88,7 @@ class IdentifiedRobot:
         Raises
         ------
         OptionError
-            If the model has no bodies, or one of them cannot exist.
+            If the model has no bodies, or one of them is physically inconsistent.
         """
         for number, body in enumerate(self.links, start=1):
             eigenvalues = np.linalg.eigvalsh(pseudo_inertia(body))

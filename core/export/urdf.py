@@ -29,7 +29,7 @@ def write_urdf(identified: IdentifiedRobot) -> str:
     Raises
     ------
     OptionError
-        If the model has no bodies, or one of them cannot exist.
+        If the model has no bodies, or one of them is physically inconsistent.
     RobotError
         If a joint's coordinate is scaled, which URDF cannot say.
     """

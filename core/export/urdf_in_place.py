@@ -48,7 +48,7 @@ def urdf_with_inertials(
     RobotError
         If the text is no URDF in UTF-8, or describes another robot than the identified one.
     OptionError
-        If the model has no bodies, or one of them cannot exist.
+        If the model has no bodies, or one of them is physically inconsistent.
     """
     own = robot_from_urdf(text, base_link=base_link, tip_link=tip_link)
     _check_alike(own, identified.robot)

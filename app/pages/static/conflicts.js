@@ -62,7 +62,7 @@ function entry(conflict) {
     element("h2", {}, `Robot and log disagree: ${conflict.remedy}${fall}`),
     element("p", {}, `${capital(conflict.statement)}. Confidence ${percent(conflict.confidence)}.`),
     conflict.ambiguous_with.length
-      ? element("div", {}, element("p", {}, "It cannot be told apart from:"), element("ul", {}, conflict.ambiguous_with.map((other) =>
+      ? element("div", {}, element("p", {}, "Not distinguishable from:"), element("ul", {}, conflict.ambiguous_with.map((other) =>
           element("li", {}, `${plain(other.conflict)}${other.joints.length ? ` (joint ${other.joints.join(", ")})` : ""}: ${other.why}.`))))
       : null,
   ];

@@ -62,7 +62,7 @@ function showCauses(container, { document }) {
   fill(container,
     table("Causes that the log can show, and from which size on they would about be found", ["Cause", "Not on joints", "From", "Quantity"],
       document.shown.map((cause) => [cause.title, cause.visible ? cause.not_on_joints.join(", ") || "–" : "all", ...smallest(cause)])),
-    element("h3", {}, "Pairs that this log does not tell apart"),
+    element("h3", {}, "Causes that this log does not distinguish"),
     document.not_separable.length
       ? element("ul", {}, document.not_separable.map((pair) => element("li", {},
           element("strong", {}, `${pair.causes.map(plain).join(" and ")}${pair.joints.length ? ` (${plural("joint", pair.joints.length).replace(/^.* /, "")} ${pair.joints.join(", ")})` : ""}`),

@@ -22,7 +22,7 @@ export function count(value) {
     .replace(/\B(?=(\d{3})+$)/g, "\u202f");
 }
 
-/** Whether a robot can exist: true, false, or null where it is not known. */
+/** Say whether parameters are physically consistent: true, false, or null where it is not known. */
 export function consistency(feasible) {
   if (feasible === null || feasible === undefined) return "of unknown consistency";
   return feasible ? "physically consistent" : "physically inconsistent";

@@ -1,4 +1,4 @@
-"""Suspect that the channels of two joints are exchanged."""
+"""Test whether the channels of two joints are exchanged."""
 
 from collections.abc import Iterator
 from itertools import combinations
@@ -16,7 +16,7 @@ class ChannelsSwapped(Conflict):
     name = "channels_swapped"
     title = "Exchanged channels"
 
-    def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:  # noqa: ARG002 - as all do
+    def hypotheses(self, setup: Setup, _trials: Trials) -> Iterator[Hypothesis]:
         """Exchange every pair."""
         pairs = sorted(combinations(range(setup.joints), 2), key=lambda pair: (pair[1] - pair[0], pair[0]))
         for first, second in pairs:

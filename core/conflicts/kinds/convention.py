@@ -1,4 +1,4 @@
-"""Suspect that a table of Denavit-Hartenberg parameters was written in another convention."""
+"""Test whether a table of Denavit-Hartenberg parameters was written in another convention."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -16,7 +16,7 @@ class Convention(Conflict):
     name = "convention"
     title = "Convention of the table"
 
-    def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:  # noqa: ARG002 - as all do
+    def hypotheses(self, setup: Setup, _trials: Trials) -> Iterator[Hypothesis]:
         """Read a plain chain's table in the other usual ways."""
         rows = [link.row for link in setup.robot.links]
         chain = all(link.antecedent == place for place, link in enumerate(setup.robot.links))

@@ -1,4 +1,4 @@
-"""Suspect that the torque channel holds no gravity: the drive's own compensation was subtracted from it."""
+"""Test whether the torque channel holds no gravity: the drive's own compensation was subtracted from it."""
 
 from collections.abc import Iterator
 
@@ -15,7 +15,7 @@ class GravityCompensated(Conflict):
     name = "gravity_compensated"
     title = "Torque without gravity"
 
-    def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:  # noqa: ARG002 - as all do
+    def hypotheses(self, setup: Setup, _trials: Trials) -> Iterator[Hypothesis]:
         """Set gravity to zero, where there is any."""
         if np.any(setup.robot.gravity):
             yield Hypothesis(

@@ -1,4 +1,4 @@
-"""Suspect that the robot is mounted otherwise than described, so that gravity has another direction."""
+"""Test whether the robot is mounted otherwise than described, so that gravity has another direction."""
 
 from collections.abc import Callable, Iterator
 from itertools import product

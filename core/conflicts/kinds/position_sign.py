@@ -1,4 +1,4 @@
-"""Suspect that a joint's motion is counted in the opposite direction to its described axis."""
+"""Test whether a joint's motion is counted in the opposite direction to its described axis."""
 
 from collections.abc import Iterator
 
@@ -16,7 +16,7 @@ class PositionSign(Conflict):
     name = "position_sign"
     title = "Sign of a position"
 
-    def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:  # noqa: ARG002 - as all do
+    def hypotheses(self, setup: Setup, _trials: Trials) -> Iterator[Hypothesis]:
         """Reverse each position, each joint's axis, and all positions together."""
         position, torque = setup.assignment.position, setup.assignment.torque
         for joint in range(setup.joints):

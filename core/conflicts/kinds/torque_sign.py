@@ -1,4 +1,4 @@
-"""Suspect that a torque is counted in the opposite direction to its joint's motion."""
+"""Test whether a torque is counted in the opposite direction to its joint's motion."""
 
 from collections.abc import Iterator
 
@@ -13,7 +13,7 @@ class TorqueSign(Conflict):
     name = "torque_sign"
     title = "Sign of a torque"
 
-    def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:  # noqa: ARG002 - as all do
+    def hypotheses(self, setup: Setup, _trials: Trials) -> Iterator[Hypothesis]:
         """Reverse each torque, and all together."""
         channels = setup.assignment.torque
         for joint in range(setup.joints):

@@ -1,4 +1,4 @@
-"""Suspect that one channel comes in another unit than all others."""
+"""Test whether one channel comes in another unit than all others."""
 
 from collections.abc import Iterator
 
@@ -18,7 +18,7 @@ class Unit(Conflict):
     name = "unit"
     title = "Unit of a channel"
 
-    def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:  # noqa: ARG002 - as all do
+    def hypotheses(self, setup: Setup, _trials: Trials) -> Iterator[Hypothesis]:
         """Try the usual units, channel by channel."""
         position, torque = setup.assignment.position, setup.assignment.torque
         for joint in range(setup.joints):

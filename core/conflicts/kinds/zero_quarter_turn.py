@@ -1,4 +1,4 @@
-"""Suspect that a joint's zero is described a quarter turn, or several, from where it is."""
+"""Test whether a joint's zero is described a quarter turn, or several, from where it is."""
 
 from collections.abc import Iterator
 
@@ -17,7 +17,7 @@ class ZeroQuarterTurn(Conflict):
     name = "zero_quarter_turn"
     title = "Zero off by a quarter turn"
 
-    def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:  # noqa: ARG002 - as all do
+    def hypotheses(self, setup: Setup, _trials: Trials) -> Iterator[Hypothesis]:
         """Move each zero by 90, 180 and -90 degrees."""
         channels = setup.assignment.position
         for joint in setup.revolute():

@@ -80,12 +80,12 @@ def _tidied(time: Samples, position: JointSeries) -> Indices:
     if np.all(np.diff(time) >= 0.0):
         return every
     kept = _longest_in_order(time)
-    strays = len(time) - len(kept)
-    if strays > FEW * len(time):
+    removed = len(time) - len(kept)
+    if removed > FEW * len(time):
         return every
     sorting = np.argsort(time, kind="stable")
     mean_step = _way(position[kept]) / len(kept)
-    fits = _way(position[sorting]) - _way(position[kept]) <= FITTING * strays * mean_step
+    fits = _way(position[sorting]) - _way(position[kept]) <= FITTING * removed * mean_step
     return sorting if fits else kept
 
 

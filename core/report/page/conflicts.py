@@ -50,7 +50,7 @@ def _sentences(conflict: Document) -> list[str]:
     statement = str(conflict["statement"])
     said = f"{statement[:1].upper()}{statement[1:]}. Confidence {share(conflict['confidence'])}."
     others = [_alternative(other) for other in conflict["ambiguous_with"]]
-    return [said, *([f"It cannot be told apart from: {series(others)}."] if others else [])]
+    return [said, *([f"Not distinguishable from: {series(others)}."] if others else [])]
 
 
 def _alternative(other: Document) -> str:

@@ -1,4 +1,4 @@
-"""Hold the gain on held-out rows to what it promises: above zero for a real effect, around it for luck."""
+"""Hold the gain on held-out rows to what it promises: above zero for a real effect, around it by chance."""
 
 import numpy as np
 import pytest
