@@ -26,11 +26,10 @@ def conflict_rows(
 
     The correction of each holds all corrections together, so that any of them can be pasted.
     """
-    setup = conflicts.setup
-    correction = {} if setup is None else _correction(setup, robot, logs)
+    correction = _correction(conflicts, robot, logs)
     fitted = [_row(found, correction, applied=conflicts.applied) for found in conflicts.found]
     stamps = [
-        _stamps_row(factor, log)
+        _stamps_row(factor, log, correction)
         for factor, log in zip(conflicts.stamp_factors, logs, strict=True)
         if factor is not None
     ]
@@ -90,23 +89,38 @@ def _alternative(hypothesis: Hypothesis) -> dict[str, object]:
     }
 
 
-def _correction(setup: Setup, robot: RobotModel, logs: tuple[JointLog, ...]) -> dict[str, object]:
+def _correction(conflicts: Conflicts, robot: RobotModel, logs: tuple[JointLog, ...]) -> dict[str, object]:
     """Give the mapping with which the logs are to be read, and the fields of the description to replace."""
-    mappings = [mapping_of(assigned(log, setup.assignment)) for log in logs]
+    setup = conflicts.setup
+    read = logs if setup is None else tuple(assigned(log, setup.assignment) for log in logs)
+    mappings = [
+        mapping_of(log) | _clock(factor, log)
+        for log, factor in zip(read, conflicts.stamp_factors, strict=True)
+    ]
     before = [mapping_of(log) for log in logs]
-    described: dict[str, object] = {}
-    if setup.robot.links is not robot.links:
-        written = to_description(setup.robot)
-        described |= {field: written[field] for field in ("convention", "joints")}
-    if not np.array_equal(setup.robot.gravity, robot.gravity):
-        described["gravity"] = setup.robot.gravity
+    described = {} if setup is None else _described(setup, robot)
     return {"mapping": mappings[0] if mappings != before else {}, "robot": described} | (
         {"mappings": mappings} if len(logs) > 1 and mappings != before else {}
     )
 
 
-def _stamps_row(factor: float, log: JointLog) -> dict[str, object]:
-    rate = log.rate_hz * factor
+def _described(setup: Setup, robot: RobotModel) -> dict[str, object]:
+    """Give the fields of the description to replace."""
+    fields: dict[str, object] = {}
+    if setup.robot.links is not robot.links:
+        written = to_description(setup.robot)
+        fields |= {field: written[field] for field in ("convention", "joints")}
+    if not np.array_equal(setup.robot.gravity, robot.gravity):
+        fields["gravity"] = setup.robot.gravity
+    return fields
+
+
+def _clock(factor: float | None, log: JointLog) -> dict[str, object]:
+    """Give the part of a mapping that replaces stamps which are too close or too far apart."""
+    return {} if factor is None else {"time": None, "rate_hz": log.rate_hz * factor}
+
+
+def _stamps_row(factor: float, log: JointLog, correction: dict[str, object]) -> dict[str, object]:
     return {
         "conflict": "time_base",
         "joints": [],
@@ -119,8 +133,10 @@ def _stamps_row(factor: float, log: JointLog) -> dict[str, object]:
             f"the measured velocity of {log.name} is {factor:.4g} times what positions and stamps give, on "
             f"every joint that moves, as if its stamps were {_slower(factor)}"
         ),
-        "remedy": f"correct the clock, as with a rate of {rate:.6g} Hz, or the unit of the velocity",
-        "correction": {"mapping": mapping_of(log) | {"time": None, "rate_hz": rate}, "robot": {}},
+        "remedy": (
+            f"correct the clock, as with a rate of {log.rate_hz * factor:.6g} Hz, or the unit of the velocity"
+        ),
+        "correction": correction,
         "ambiguous_with": [
             {"conflict": "unit", "joints": [], "channel": None, "why": "the velocity may be in another unit"}
         ],

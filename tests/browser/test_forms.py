@@ -324,3 +324,57 @@ def test_a_plot_zooms_by_keys_with_its_neighbours_and_comes_back(look, service, 
 def test_a_link_to_a_robot_that_is_not_there_says_so(look, service):
     page = look(service).open("/new?robot=nobody")
     page.get_by_text("There is no robot nobody: choose another one.").wait_for()
+
+
+def test_coupled_motors_are_typed_in_the_table_and_for_a_copy_of_a_known_robot(look, service):
+    seen = look(service)
+    page = seen.open("/new?robot=yumi-left")
+    page.get_by_text("Add coupled motors").click()
+    page.get_by_role("button", name="Add a coupled motor").click()
+    page.get_by_label("Motor 1: joints").fill("6, 9")
+    page.get_by_role("button", name="Use a copy with these motors").click()
+    page.get_by_text("Motor 1 names a joint that is none of the 7 joints.").wait_for()
+    page.get_by_label("Motor 1: joints").fill("6, 7")
+    page.get_by_label("Motor 1: weights").fill("1 -0,5")
+    seen.photograph("new_couplings_light")
+    assert seen.barriers() == []
+    copied = posted(page, "/v1/robots", page.get_by_role("button", name="Use a copy with these motors").click)
+    (coupling,) = json.loads(copied.post_data)["couplings"]
+    assert (coupling["joints"], coupling["weights"]) == ([6, 7], [1.0, -0.5])
+    page.locator(".chosen", has_text=f"motor 1: q6 {MINUS} 0.5 q7").wait_for()
+    page.get_by_role("radio", name="DH table").check()
+    page.get_by_label("Start from").wait_for()
+    page.get_by_text("Coupled motors", exact=True).click()
+    page.get_by_role("button", name="Add a coupled motor").click()
+    page.get_by_text("Motor 1 needs at least two different joints.").wait_for()
+    page.get_by_label("Motor 1: joints").fill("2 3")
+    typed = posted(page, "/v1/robots", page.get_by_role("button", name="Use this robot").click)
+    (coupling,) = json.loads(typed.post_data)["couplings"]
+    assert (coupling["joints"], coupling["weights"]) == ([2, 3], [1.0, 1.0])
+
+
+def test_a_coupling_that_was_found_is_applied_by_a_click(look, service):
+    seen = look(service)
+    seen.statuses.add(404)  # no such study is stored
+    page = seen.open("/new")
+    page.route("**/v1/jobs", lambda route: route.fulfill(status=202, json={"id": "again"}))
+    robot = page.evaluate("async () => (await (await fetch('/v1/robots/yumi-left')).json()).description")
+    robot["couplings"] = [{"name": "joints 6 and 7", "number": 7, "joints": [6, 7], "weights": [1.0, 1.0]}]
+    page.evaluate(
+        """async (robot) => {
+          const { showFindings } = await import("/static/findings.js");
+          const report = new DOMParser().parseFromString("<main></main>", "text/html");
+          const repairs = [{ mends: "robot", what: "One coupling" }, { mends: "log", what: "not this" }];
+          const job = { kind: "diagnose", robot: "yumi-left", logs: ["log-1"], options: { reference: null } };
+          const diagnosis = { repairs, repaired_robot: robot };
+          showFindings(document.getElementById("main"), { job, document: { diagnosis }, report });
+        }""",
+        robot,
+    )
+    assert page.get_by_text("not this").count() == 0
+    apply = page.get_by_role("button", name="Apply and start again")
+    with page.expect_request(lambda asked: asked.url.endswith("/v1/robots")) as told:
+        job = json.loads(posted(page, "/v1/jobs", apply.click).post_data)
+    assert json.loads(told.value.post_data)["couplings"] == robot["couplings"]
+    assert (job["kind"], job["logs"], job["robot"] != "yumi-left") == ("diagnose", ["log-1"], True)
+    page.wait_for_url("**/studies/again")

@@ -2,6 +2,7 @@
 import { get, post, request } from "./api.js";
 import { drawChain } from "./chain.js";
 import { dropZone, field, menu, readNumber, segments } from "./controls.js";
+import { couplingForm, couplingWords } from "./couplings.js";
 import { element, fill } from "./dom.js";
 import { showError } from "./problem.js";
 import { robotTable } from "./table.js";
@@ -145,9 +146,37 @@ export function chooseRobot(container, { wanted, chosen }) {
   }
 
   function use(robot) {
-    fill(said, robot === null ? null : summary(robot));
+    fill(said, robot === null ? null : [summary(robot), now === "table" ? null : coupled(robot)]);
     draw(robot?.description ?? null);
     chosen(robot);
+  }
+
+  // The table has this form itself; a robot from elsewhere is copied with the motors that are typed.
+  function coupled(robot) {
+    const { couplings, joints } = robot.description;
+    const wrong = element("p", { class: "hint wrong", role: "status" });
+    const motors = couplingForm(couplings ?? [], () => fill(wrong));
+    const take = element("button", { type: "button", class: "primary", on: { click: copy } }, "Use a copy with these motors");
+    return element(
+      "details",
+      { class: "coupled" },
+      element("summary", {}, couplings?.length ? "Change the coupled motors" : "Add coupled motors"),
+      motors.node,
+      element("div", { class: "actions" }, take, wrong),
+    );
+
+    async function copy() {
+      const typed = motors.read(joints.filter((joint) => !joint.mimics).length);
+      if (typed.fault) {
+        fill(wrong, typed.fault);
+        return;
+      }
+      try {
+        use(await post("/v1/robots", { ...robot.description, couplings: typed.couplings }));
+      } catch (error) {
+        showError(wrong, error);
+      }
+    }
   }
 
   function draw(description) {
@@ -222,6 +251,7 @@ function summary(robot) {
     description.convention === "modified-dh" ? "modified Denavit-Hartenberg table" : "frames",
     `gravity ${description.gravity.map((value) => number(value, 3)).join(", ")} m/s²`,
     description.prior ? "with prior" : null,
+    ...couplingWords(description.couplings ?? []),
   ];
   return element(
     "div",

@@ -1,6 +1,7 @@
 // The form for a modified Denavit-Hartenberg table: one row per joint, in the units of the data sheet, drawn while it is typed.
 import { get } from "./api.js";
 import { field, freshId, menu, readNumber, segments } from "./controls.js";
+import { couplingForm } from "./couplings.js";
 import { element, fill } from "./dom.js";
 import { showError } from "./problem.js";
 import { COLUMNS, EMPTY, factorOf, faultOf, jointOf, pointerOf, rowsOf, unitOf, without } from "./rows.js";
@@ -23,6 +24,8 @@ export function robotTable(container, { known, changed, finished }) {
   const gravity = element("input", { type: "text", value: "0, 0, -9.81", on: { input: tell } });
   const body = element("tbody", {});
   const head = element("thead", {});
+  const motors = couplingForm([], tell);
+  const motorsPart = element("details", {}, element("summary", {}, "Coupled motors"), motors.node);
   const wrong = element("p", { class: "hint wrong", role: "status" });
   const note = element("div", { class: "hint", role: "status" });
   const starts = [["", "an example with three joints"], ...known.map((robot) => [robot.id, robot.name])];
@@ -79,6 +82,7 @@ export function robotTable(container, { known, changed, finished }) {
       { class: "wide", tabindex: "0", role: "group", "aria-label": "Table of the joints" },
       element("table", { class: "mdh" }, head, body),
     ),
+    motorsPart,
     element(
       "div",
       { class: "actions" },
@@ -208,10 +212,13 @@ export function robotTable(container, { known, changed, finished }) {
       .split(/[,;\s]+/)
       .filter(Boolean)
       .map(readNumber);
-    const fault = down.length === 3 && down.every(Number.isFinite) ? faultOf(rows) : "Gravity needs three numbers.";
+    const coupled = motors.read(rows.length);
+    const isVector = down.length === 3 && down.every(Number.isFinite);
+    const fault = isVector ? (faultOf(rows) ?? coupled.fault) : "Gravity needs three numbers.";
     wrong.textContent = fault ?? "";
     if (fault !== null) return null;
-    return { name: name.value, convention: "modified-dh", joints: rows.map(jointOf), gravity: down };
+    const { couplings } = coupled;
+    return { name: name.value, convention: "modified-dh", joints: rows.map(jointOf), gravity: down, couplings };
   }
 
   function finish() {
@@ -253,9 +260,9 @@ export function robotTable(container, { known, changed, finished }) {
   }
 
   function take(description) {
-    if (description.couplings?.length || description.prior) {
-      fill(note, "Couplings and priors are not copied: set them with the API.");
-    }
+    if (description.prior) fill(note, "The prior is not copied: set it with the API.");
+    motors.use(description.couplings ?? []);
+    motorsPart.open = Boolean(description.couplings?.length);
     rows = rowsOf(description);
     gravity.value = description.gravity.map((value) => Number(value.toPrecision(7))).join(", ");
     name.value = `${description.name} copy`;

@@ -1,5 +1,7 @@
 """A correction that is pasted, as the page does it, makes robot and log agree."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -43,6 +45,22 @@ SPOILT = {
     ),
     "time_base": (lambda t, q, dq, tau: (2.0 * t, q, dq, tau), {}),
 }
+
+
+def test_one_correction_takes_all_conflicts_of_all_logs(client):
+    def clocks(slower):
+        return table(lambda t, q, dq, tau: (slower * t, q, dq, tau))
+
+    logs = [client.post("/v1/logs", content=clocks(slower), headers=CSV).json() for slower in (1.0, 2.0)]
+    tilted = client.post("/v1/robots", json=ROBOT | {"gravity": [9.81, 0.0, 0.0]}).json()["id"]
+    body = {"kind": "check", "robot": tilted, "logs": [log["id"] for log in logs], "options": {}}
+    job = client.post("/v1/jobs", json=body, headers={"Prefer": "wait=60"}).json()
+    found = client.get(job["links"]["results"]).json()["conflicts"]
+    assert "time_base" in [conflict["conflict"] for conflict in found]
+    assert len({json.dumps(conflict["correction"]) for conflict in found}) == 1
+    sound, slow = found[0]["correction"]["mappings"]
+    assert (sound.get("rate_hz"), slow["time"]) == (None, None)
+    assert slow["rate_hz"] == pytest.approx(logs[0]["rate_hz"], rel=0.01)
 
 
 @pytest.mark.parametrize("conflict", SPOILT)
