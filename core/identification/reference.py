@@ -107,21 +107,24 @@ def reference_from_prior(base: BaseModel) -> Reference:
     for body, columns in zip(bodies, links, strict=True):
         standard[list(columns)] = body
         known |= set(columns)
-        spread.append(base.grouping[:, list(columns)] @ _body_spread(body))
+        spread.append(base.grouping[:, list(columns)] @ body_spread(body))
     unknown = [column for column in range(len(standard)) if column not in known]
     combinations = null_space(base.grouping[:, unknown].T).T if unknown else np.eye(len(base.kept))
     values = base.base_of(standard)
     return Reference(PRIOR, base, standard, values, _whiten(combinations, np.hstack(spread)))
 
 
-def _body_spread(body: LinkParameters) -> EquationRows:
-    """Give the directions in which a body's ten parameters are off, each by one standard deviation."""
+def body_spread(body: LinkParameters, deviation: float = PRIOR_DEVIATION) -> EquationRows:
+    """Give the directions in which a body's ten parameters are off, each by one standard deviation.
+
+    Every entry of its pseudo-inertia is off by a share of the roots of its diagonal.
+    """
     root = np.sqrt(np.maximum(np.diag(pseudo_inertia(body)), 0.0))
     directions = []
     for row in range(4):
         for column in range(row, 4):
             entry = np.zeros((4, 4))
-            entry[row, column] = entry[column, row] = PRIOR_DEVIATION * root[row] * root[column]
+            entry[row, column] = entry[column, row] = deviation * root[row] * root[column]
             directions.append(link_parameters(entry))
     return np.array(directions).T
 

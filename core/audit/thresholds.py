@@ -1,0 +1,53 @@
+"""Hold the numbers that decide an audit, each with its unit, meaning and source."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class DescriptionThresholds:
+    """Decide what is said of bodies without a log."""
+
+    light_kg: float = 1e-3
+    """Mass below which a moving link has none. Set by hand: the lightest finger weighs grams."""
+    heavy_kg_per_m: float = 1000.0
+    """Mass of a link over the robot's reach above which it is no robot's. Set by hand: the heaviest arms have
+    2,000 kg at 3 m in six links."""
+    outside: float = 1.0
+    """Distance of a mass centre from the middle of its link, in radii of the ball that holds the link."""
+    wide: float = 1.0
+    """Radius of gyration in the same radii: mass within a ball has at most one."""
+    compact: float = 0.01
+    """Radius of gyration over that radius below which an inertia is none of a link. Set by hand: a steel ball
+    of the same mass has 0.05 and more."""
+    unit_spread: float = 3.0
+    """Factor within which a common factor is taken for a unit's (1000, 1e6, 1e9). Set by hand: half of what
+    keeps units apart on a logarithmic scale would be 30; links differ by three."""
+    mirrored_share: float = 0.05
+    """Difference of a left and a right link's mass, or principal inertia, from which they are no mirror
+    images. Set by hand: files are written with three digits."""
+    mirrored_metres: float = 0.002
+    """The same for the distance of the mass centre from the joint's axis and along it, m."""
+    total_share: float = 0.05
+    """Share by which the links may weigh more than the maker's robot. Set by hand: data sheets round."""
+    least_share: float = 0.4
+    """Share of the maker's mass that moving links have at least; the rest is the base. Set by hand: bases of
+    six-joint arms have a tenth to a half."""
+
+
+@dataclass(frozen=True)
+class LogThresholds:
+    """Decide what logs contradict."""
+
+    slack: float = 0.05
+    """A description is taken to be off by this share of the roots of a pseudo-inertia's diagonal: CAD without
+    cables and screws. Halved, slight differences are named; doubled, 30 mm of a compact link are not."""
+    p_value: float = 1e-3
+    """Probability, corrected for all entries, below which an entry is contradicted."""
+    undecided: float = 10.0
+    """Difference of the criterion below which another entry explains the log as well. As for causes."""
+    tolerated_percent: float = 30.0
+    """Held-out torque error (% of RMS) above which the log contradicts the model and not an entry of it, as a
+    check of robot and log doubts it."""
+
+
+DESCRIPTION, LOG = DescriptionThresholds(), LogThresholds()

@@ -1,0 +1,1 @@
+"""Spoil entries of descriptions by seed, and count which of them an audit names: ``make audit SEED=n``."""
