@@ -26,6 +26,7 @@ NAVIGATION = {
         "exciting",
         "identification",
         "conflicts",
+        "audit",
         "diagnosis",
         "export",
         "http",

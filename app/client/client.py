@@ -101,6 +101,28 @@ class Client:
         """Say which combinations of parameters any motion of a robot can tell apart."""
         return self._transport.document("GET", f"/v1/robots/{segment(self._robot(robot))}/base-parameters")
 
+    def audit(
+        self,
+        robot: RobotLike,
+        logs: LogLike | Sequence[LogLike] = (),
+        options: Mapping[str, object] | None = None,
+    ) -> dict[str, Any]:
+        """Audit a robot's description, by itself or against logs; see docs/audit.md.
+
+        Raises
+        ------
+        NoResultError
+            If the job of an audit against logs ends without a result.
+        """
+        if not isinstance(logs, Sequence) or isinstance(logs, str) or logs:
+            job = self.submit("audit", robot, logs, options)
+            self.finish(job)
+            document: dict[str, Any] = json.loads(self.result_bytes(job))
+            return document
+        path = f"/v1/robots/{segment(self._robot(robot))}/audit"
+        content = json.dumps({"options": dict(options or {})}).encode()
+        return self._transport.document("POST", path, content=content, media_type="application/json")
+
     def upload(self, log: object, *, name: str = "", mapping: Mapping[str, object] | None = None) -> Log:
         """Upload a log.
 

@@ -14,6 +14,7 @@ from pydantic.json_schema import models_json_schema
 from ..kinds.registry import KINDS as JOB_KINDS
 from ..problems import KINDS, MEDIA_TYPE
 from ..schemas.common import ProblemDocument
+from ..schemas.audit import AuditRequest
 from ..schemas.jobs import JobRequest
 from ..schemas.logs import LogReading
 from ..schemas.robots import RobotDescription
@@ -21,6 +22,7 @@ from ..schemas.robots import RobotDescription
 SCHEMAS = "#/components/schemas/"
 DOCUMENTED: tuple[type[BaseModel], ...] = (
     RobotDescription,
+    AuditRequest,
     JobRequest,
     LogReading,
     *dict.fromkeys(kind.result for kind in JOB_KINDS.values()),

@@ -6,12 +6,13 @@ from operator import or_
 from typing import Any
 
 from ...core.errors import OptionError
+from .audit import Audit
 from .check import Check
 from .diagnose import Diagnose
 from .identify import Identify
 from .kind import JobKind
 
-KINDS: Mapping[str, JobKind[Any]] = {kind.name: kind for kind in (Identify(), Diagnose(), Check())}
+KINDS: Mapping[str, JobKind[Any]] = {kind.name: kind for kind in (Identify(), Diagnose(), Check(), Audit())}
 RESULT_DOCUMENT: Any = reduce(or_, (kind.result for kind in KINDS.values()))
 """The model of a result document of any kind."""
 

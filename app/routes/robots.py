@@ -3,18 +3,26 @@
 from typing import Annotated
 
 import anyio
-from fastapi import Query, Request, Response
+from fastapi import Header, Query, Request, Response
 from fastapi.responses import JSONResponse
 
-from ..http.body.json_body import parse_json, require_media_type
+from ..http.body.json_body import check, parse_json, require_media_type
+from ..http.negotiation import wait_seconds
 from ..http.openapi import body, problems, reference
 from ..http.pagination import CursorOf, Limit, before, following
 from ..http.routing import chapter
+from ..jobs.queue import Submission
+from ..kinds.audit import Audit, audit_description
 from ..problems import Problem
+from ..schemas.audit import AuditDocument, AuditRequest
 from ..schemas.examples import PENDULUM_URDF, YUMI_LEFT
+from ..schemas.jobs import Job
 from ..schemas.robots import BaseParameters, Robot, RobotDescription, RobotList
-from ..services.serialisers import robot_document, robot_summary
+from ..services.finished_jobs import RETRY_AFTER_S
+from ..services.job_feed import wait_for
+from ..services.serialisers import job_document, robot_document, robot_summary
 from ..services.services import ContextOf, ServicesOf
+from ..store.records import Document
 
 ROUTER = chapter("/v1/robots", tag="robots")
 XML_TYPES = ("application/xml", "text/xml")
@@ -92,6 +100,46 @@ async def read_base_parameters(services: ServicesOf, context: ContextOf, robot_i
     await services.readiness.wait_for_solver()
     document = await anyio.to_thread.run_sync(context.catalogue.base_parameters, robot)
     return JSONResponse(document)
+
+
+@ROUTER.post(
+    "/{robot_id}/audit",
+    response_model=AuditDocument,
+    summary="Audit the bodies of a description",
+    responses=problems(400, 404, 413, 415, 422)
+    | {202: {"model": Job, "description": "With logs: the job of kind `audit` that answers; follow it"}},
+    openapi_extra=body(
+        {
+            "application/json": {
+                "schema": reference(AuditRequest),
+                "example": {"options": {"makers_mass": 11.0}},
+            }
+        }
+    ),
+)
+async def audit_robot(
+    request: Request,
+    context: ContextOf,
+    robot_id: str,
+    prefer: Annotated[
+        str | None, Header(max_length=200, description="wait=N: with logs, wait up to N seconds (at most 60)")
+    ] = None,
+) -> Response:
+    """Find masses, mass centres and inertias that cannot be; with logs, a job finds those they contradict."""
+    require_media_type(request, ("application/json",))
+    asked = check(AuditRequest, parse_json(await request.body()))
+    robot = await anyio.to_thread.run_sync(context.catalogue.robot, robot_id)
+    options: Document = dict(asked.options)
+    if not asked.logs:
+        document = await anyio.to_thread.run_sync(audit_description, robot.description, options)
+        return JSONResponse(document)
+    submission = Submission(Audit.name, robot.id, tuple(asked.logs), options, trace=request.state.trace)
+    job = await context.batcher.take(context.caller.tenant, context.queue.begin_to_submit, submission)
+    seconds = wait_seconds(prefer)
+    if seconds is not None:
+        job = await wait_for(context.feed, job, seconds)
+    headers = {"Location": f"/v1/jobs/{job.id}", "Retry-After": RETRY_AFTER_S}
+    return JSONResponse(job_document(job), 202, headers=headers)
 
 
 @ROUTER.delete("/{robot_id}", status_code=204, summary="Delete a robot", responses=problems(404, 409))

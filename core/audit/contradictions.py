@@ -7,23 +7,25 @@ Math. Soc. 54, 1943 (test of restrictions); Gautier & Khalil 1990 (what is ident
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 
 import numpy as np
-from scipy.linalg import null_space
+from scipy.linalg import null_space, solve_triangular
 from scipy.stats import chi2
 
 from ..arrays import EquationRows, LinkTable, Matrix, Vector
 from ..estimate.constraints import link_columns
 from ..identification.reference import body_spread, with_least_deviation
 from ..identification.result import Identification
-from ..robot.inertia import mass_properties
+from ..robot.inertia import from_mass_properties, mass_properties
 from .entries import SIZES, Bodies, Entry
 from .thresholds import LOG
 
 ROUNDS = 4
 """Gauss-Newton steps of a fit: only products of mass and centre are not linear."""
+THINNEST = 1e-3
+"""Least second moment of a corrected body over its largest one: a rod of 1 to 30."""
 IMPOSSIBLE = 1e12
 """Cost of bodies without mass."""
 Chosen = frozenset[Entry]
@@ -96,8 +98,9 @@ def evidence_of(found: Identification) -> Evidence | None:
             for link, body in enumerate(table)
         ]
     )
-    whiten = np.linalg.inv(np.linalg.cholesky(np.eye(len(rows)) + spread @ spread.T))
-    return Evidence(whiten @ rows, whiten @ values, Bodies(table))
+    lower = np.linalg.cholesky(np.eye(len(rows)) + spread @ spread.T)
+    white = solve_triangular(lower, np.column_stack([rows, values]), lower=True)
+    return Evidence(white[:, :-1], white[:, -1], Bodies(table))
 
 
 def contradictions(evidence: Evidence) -> tuple[tuple[Contradiction, ...], Correction]:
@@ -105,7 +108,7 @@ def contradictions(evidence: Evidence) -> tuple[tuple[Contradiction, ...], Corre
 
     @cache
     def corrected(chosen: Chosen) -> Correction:
-        return _corrected(evidence, chosen)
+        return correct(evidence, chosen)
 
     def cost(chosen: Chosen) -> float:
         return corrected(chosen).misfit + sum(map(evidence.price, chosen))
@@ -126,7 +129,8 @@ def contradictions(evidence: Evidence) -> tuple[tuple[Contradiction, ...], Corre
             if other not in chosen and cost(chosen - {entry} | {other}) < cost(chosen) + LOG.undecided
         )
         found.append(Contradiction(entry, without, min(1.0, tail * len(evidence.entries)), others))
-    return tuple(found), corrected(chosen)
+    correction = corrected(chosen)
+    return tuple(found), replace(correction, table=_consistent(correction))
 
 
 def _neighbours(evidence: Evidence, chosen: Chosen) -> Iterable[Chosen]:
@@ -140,7 +144,7 @@ def _neighbours(evidence: Evidence, chosen: Chosen) -> Iterable[Chosen]:
     yield from (chosen - {entry} for entry in chosen)
 
 
-def _corrected(evidence: Evidence, chosen: Chosen) -> Correction:
+def correct(evidence: Evidence, chosen: Chosen) -> Correction:
     """Fit the numbers of some entries; what the log leaves open stays near the description."""
     bodies = evidence.bodies
     numbers = bodies.numbers(sorted(chosen))
@@ -161,6 +165,19 @@ def _step(slopes: Matrix, rest: Vector, at: Vector) -> Vector:
     """Give the step of least squares with a unit prior about the description."""
     stacked = np.vstack([slopes, np.eye(len(at))])
     return np.asarray(np.linalg.lstsq(stacked, np.concatenate([rest, -at]), rcond=None)[0])
+
+
+def _consistent(correction: Correction) -> LinkTable:
+    """Give the bodies, those that were corrected brought to ones that can be: mass and centre stay."""
+    table = correction.table.copy()
+    for link in {entry.link - 1 for entry in correction.chosen}:
+        mass, centre, inertia = mass_properties(table[link])
+        moments, axes = np.linalg.eigh(0.5 * np.trace(inertia) * np.eye(3) - inertia)
+        least = THINNEST * max(float(moments[-1]), 0.0)
+        if moments[0] < least:
+            second = axes * np.maximum(moments, least) @ axes.T
+            table[link] = from_mass_properties(mass, centre, np.trace(second) * np.eye(3) - second)
+    return table
 
 
 def described_mass(table: LinkTable) -> float:

@@ -1,4 +1,4 @@
-"""Change entries of bodies: the mass, the mass centre, and the inertia about it, as descriptions give them."""
+"""Change entries of bodies: mass, mass centre, and inertia about it, as descriptions give them."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

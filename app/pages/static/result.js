@@ -1,5 +1,6 @@
 // Show the result of a successful job: conflicts and headline first, then one section for each topic.
 import { get, request } from "./api.js";
+import { AUDITED, showAudit } from "./audit.js";
 import { showBodies } from "./bodies.js";
 import { showConflicts } from "./conflicts.js";
 import { element, fill } from "./dom.js";
@@ -23,8 +24,8 @@ export async function show(container, job) {
   fill(container, element("p", { class: "waiting", role: "status" }, "Loading the result …"));
   const [document, report] = await Promise.all([get(job.links.results, { headers: { Accept: "application/json" } }), reportOf(job)]);
   const study = { job, document, report, traces: tracesOf(job, document) };
-  const checked = document.kind === "check";
-  const all = checked ? CHECKED : document.diagnosis ? [...DIAGNOSED, ...COMMON] : COMMON;
+  const own = OWN[document.kind];
+  const all = own ? own.sections : document.diagnosis ? [...DIAGNOSED, ...COMMON] : COMMON;
   const sections = job.links.traces ? all : all.filter(([id]) => !TRACED.has(id));
   const conflicts = element("div", {});
   const headline = element("div", {});
@@ -32,10 +33,15 @@ export async function show(container, job) {
     element("h2", { id: `${id}-title` }, title), element("div", { class: "content" })));
   fill(container, conflicts, headline, contents(sections), parts);
   showConflicts(conflicts, study);
-  (checked ? showAgreement : showHeadline)(headline, study);
+  (own?.headline ?? showHeadline)(headline, study);
   sections.forEach(([, , draw], place) => whenSeen(parts[place], (content) => draw(content, study)));
 }
 
+// Kinds whose result is no identified robot.
+const OWN = {
+  check: { sections: CHECKED, headline: showAgreement },
+  audit: { sections: AUDITED, headline: showAudit },
+};
 const DIAGNOSED = [
   ["findings", "Findings", showFindings],
   ["remainder", "Unexplained residual", showRemainder],

@@ -1,5 +1,6 @@
 // Choose a robot: one that is known, one described by its table, or one from a URDF. Whatever is chosen is drawn.
 import { get, post, request } from "./api.js";
+import { auditOf } from "./audit.js";
 import { drawChain } from "./chain.js";
 import { dropZone, field, menu, readNumber, segments } from "./controls.js";
 import { couplingForm, couplingWords } from "./couplings.js";
@@ -146,7 +147,11 @@ export function chooseRobot(container, { wanted, chosen }) {
   }
 
   function use(robot) {
-    fill(said, robot === null ? null : [summary(robot), now === "table" ? null : coupled(robot)]);
+    fill(said, robot === null ? null : [
+      summary(robot),
+      robot.description.prior ? auditOf(robot) : null,
+      now === "table" ? null : coupled(robot),
+    ]);
     draw(robot?.description ?? null);
     chosen(robot);
   }

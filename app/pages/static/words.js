@@ -99,4 +99,4 @@ export function unitOf(trace, type) {
 }
 
 /** What the studies of a kind are called. */
-export const KINDS = { identify: "Identification", diagnose: "Diagnosis", check: "Set-up check" };
+export const KINDS = { identify: "Identification", diagnose: "Diagnosis", check: "Set-up check", audit: "Audit of the description" };

@@ -67,6 +67,12 @@ class LocalBackend:
         _note_compilation()
         return {"robot": given} | base_parameters(description)
 
+    def audit(self, given: str, part: FromUrdf, options: Document) -> Document:
+        """Audit a robot's description without a log."""
+        from ...kinds.audit import audit_description
+
+        return audit_description(self.robot(given, part)["description"], options)
+
     def run(self, study: Study, progress: Progress, report: Path | None) -> bytes:
         """Compute; what cannot succeed is refused before the solver is loaded.
 

@@ -71,5 +71,8 @@ class Backend(Protocol):
     def base_parameters(self, given: str, part: FromUrdf = WHOLE) -> Document:
         """Say what motion of a robot can tell apart."""
 
+    def audit(self, given: str, part: FromUrdf, options: Document) -> Document:
+        """Audit a robot's description without a log."""
+
     def run(self, study: Study, progress: Progress, report: Path | None) -> bytes:
         """Compute; give the result document, and write the report where one is wanted."""

@@ -36,6 +36,10 @@ class RemoteBackend:
         """Say what motion of a robot can tell apart."""
         return self._client.base_parameters(self._robot(given, part))
 
+    def audit(self, given: str, part: FromUrdf, options: Document) -> Document:
+        """Audit a robot's description without a log."""
+        return self._client.audit(self._robot(given, part), options=options)
+
     def run(self, study: Study, progress: Progress, report: Path | None) -> bytes:
         """Compute; an interruption dismisses the job."""
         for path in study.logs:

@@ -1,23 +1,31 @@
 """List, show and check robots."""
 
+from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from ...json_text import json_bytes
+from ...kinds.registry import KINDS
+from ..backend.protocol import Study
 from ..backend.selection import open_backend
 from ..options import (
     BaseLinkOption,
     GravityOption,
     JsonOption,
     KeyOption,
+    MappingOption,
+    ProfileOption,
     RobotArgument,
     TipLinkOption,
     UrlOption,
+    mapping_of,
     part_of,
 )
+from ..output.audit import save_corrected
 from ..output.exit_codes import Exit
 from ..output.streams import echo, result_console, write
+from ..study import Destination, run
 
 COMMANDS = typer.Typer(
     help="List, show and check robots.",
@@ -122,6 +130,53 @@ def base_parameters(  # noqa: PLR0913  # the options of a command line
     )
     if document["without_effect"]:
         echo(f"without effect on the torque: {', '.join(document['without_effect'])}")
+
+
+@COMMANDS.command(
+    epilog="\b\nExamples:\n  veritorque robots audit robot.urdf --tip-link joint_7 --makers-mass 11\n"
+    "  veritorque robots audit robot.urdf examples/yumi/log.csv --tip-link joint_7 --urdf corrected.urdf"
+)
+def audit(  # noqa: PLR0913  # the options of a command line
+    robot: RobotArgument,
+    logs: Annotated[
+        list[Path] | None, typer.Argument(metavar="[LOG...]", help="Logs to audit against.")
+    ] = None,
+    *,
+    makers_mass: Annotated[
+        float | None, typer.Option(help="Mass of the robot by its data sheet, kg.")
+    ] = None,
+    corrected: Annotated[
+        Path | None, typer.Option("--urdf", help="Save the corrected description as a URDF here.")
+    ] = None,
+    fail_on_findings: Annotated[
+        bool, typer.Option("--fail-on-findings", help="Exit with code 1 if anything is found.")
+    ] = False,
+    base_link: BaseLinkOption = "",
+    tip_link: TipLinkOption = "",
+    gravity: GravityOption = "",
+    mapping: MappingOption = "",
+    profile: ProfileOption = "",
+    url: UrlOption = "",
+    key: KeyOption = "",
+    json: JsonOption = False,
+) -> None:
+    """Audit described masses, mass centres and inertias, by themselves or against logs."""
+    part = part_of(base_link, tip_link, gravity)
+    options: dict[str, Any] = {} if makers_mass is None else {"makers_mass": makers_mass}
+    if logs:
+        study = Study("audit", robot, tuple(logs), mapping_of(mapping, profile), options, part)
+        document = run(study, url=url, key=key, destination=Destination(json, None, None))
+    else:
+        with open_backend(url, key) as backend:
+            document = backend.audit(robot, part, options)
+        if json:
+            write(json_bytes(document))
+    if not json:
+        KINDS["audit"].show(result_console(), document)
+    if corrected is not None:
+        save_corrected(document, robot, part, corrected)
+    if fail_on_findings and (document["remarks"] or document["contradicted"]):
+        raise typer.Exit(Exit.FOUND)
 
 
 def _print_joints(rows: list[dict[str, Any]]) -> None:

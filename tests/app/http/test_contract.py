@@ -35,6 +35,7 @@ PROMISED = {
     "/v1/robots": {"GET", "POST"},
     "/v1/robots/{robot_id}": {"GET", "DELETE"},
     "/v1/robots/{robot_id}/base-parameters": {"GET"},
+    "/v1/robots/{robot_id}/audit": {"POST"},
     "/v1/logs": {"GET", "POST"},
     "/v1/logs/{log_id}": {"GET", "DELETE"},
     "/v1/logs/{log_id}/readings": {"POST"},

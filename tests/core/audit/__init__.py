@@ -1,0 +1,1 @@
+"""Mirror veritorque.core.audit."""
