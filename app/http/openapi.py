@@ -13,8 +13,8 @@ from pydantic.json_schema import models_json_schema
 
 from ..kinds.registry import KINDS as JOB_KINDS
 from ..problems import KINDS, MEDIA_TYPE
-from ..schemas.common import ProblemDocument
 from ..schemas.audit import AuditRequest
+from ..schemas.common import ProblemDocument
 from ..schemas.jobs import JobRequest
 from ..schemas.logs import LogReading
 from ..schemas.robots import RobotDescription
