@@ -22,7 +22,7 @@ export MKL_NUM_THREADS := 1
 # Where bytecode is switched off, each of the many processes that tests start would compile every module again.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help setup demo serve test check style types imports drift containers answers hidden battery ablate hostile fuzz ranks conflicts audit contract chaos life image-test bench lock openapi reference docs
+.PHONY: help setup demo serve test check style types imports drift containers answers hidden battery ablate hostile fuzz ranks conflicts truths audit contract chaos life image-test bench lock openapi reference docs
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -94,6 +94,9 @@ ranks: $(READY) ## compare base parameters with the rank of pinocchio's regresso
 
 conflicts: $(READY) ## spoil one thing in sound robots and logs (SEED decides), and count what is named
 	$(RUN) -m tests.conflicts --seed $(or $(SEED),1) $(ARGS)
+
+truths: $(READY) ## change one thing in measured logs (SEED decides, ONLY=text picks), and count what is named
+	$(RUN) -m tests.truths --seed $(or $(SEED),1) --only "$(ONLY)"
 
 audit: $(READY) ## spoil bodies in descriptions of drawn arms (SEED decides), and count what an audit names
 	$(RUN) -m tests.audit --seed $(or $(SEED),1) $(ARGS)
