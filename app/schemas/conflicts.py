@@ -13,6 +13,7 @@ ConflictName = Literal[
     "mounting",
     "zero_quarter_turn",
     "convention",
+    "link_length",
     "gravity_compensated",
     "time_base",
     "unit",

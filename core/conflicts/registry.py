@@ -9,6 +9,7 @@ from .conflict import Conflict
 from .kinds.channels_swapped import ChannelsSwapped
 from .kinds.convention import Convention
 from .kinds.gravity_compensated import GravityCompensated
+from .kinds.link_length import LinkLength
 from .kinds.mounting import Mounting
 from .kinds.position_sign import PositionSign
 from .kinds.torque_sign import TorqueSign
@@ -23,6 +24,7 @@ _LISTED: tuple[Conflict, ...] = (
     ChannelsSwapped(),
     ZeroQuarterTurn(),
     Convention(),
+    LinkLength(),
     Unit(),
 )
 CONFLICTS: Mapping[str, Conflict] = {conflict.name: conflict for conflict in _LISTED}

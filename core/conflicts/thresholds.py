@@ -74,4 +74,19 @@ class TimeBase:
     """Logarithm beyond which it is a unit's: revolutions per second are 6.28 times less than radians."""
 
 
-DOUBT, TRIAL, DECISION, MOUNTING, TIME_BASE = Doubt(), Trial(), Decision(), Mounting(), TimeBase()
+@dataclass(frozen=True)
+class Length:
+    """Search the error of a length. All are set by hand."""
+
+    coarse: tuple[float, ...] = (-0.3, -0.1, 0.0, 0.1, 0.3)
+    """Metres that are tried first."""
+    promising: float = 0.05
+    """Natural logarithm by which the mean error has to fall among these for a length to be refined."""
+    tolerance: float = 2e-3
+    """Metres to which a length is refined."""
+    least: float = 0.03
+    """Metres below which an error of a length is a cause with a size, and no conflict."""
+
+
+DOUBT, TRIAL, DECISION, MOUNTING = Doubt(), Trial(), Decision(), Mounting()
+TIME_BASE, LENGTH = TimeBase(), Length()

@@ -26,7 +26,13 @@ def with_reservations(found: Diagnosis, *, open_conflict: bool, doubted: bool) -
     failed = open_conflict or any(_joints_not_fitted(found))
     findings = tuple(_limited(finding) if failed else finding for finding in found.findings)
     claims_nothing = found.verdict == "nothing_found" and (failed or doubted)
-    return replace(found, findings=findings, verdict="unexplained" if claims_nothing else found.verdict)
+    return replace(
+        found,
+        findings=findings,
+        verdict="unexplained" if claims_nothing else found.verdict,
+        # What a model shows is told at its best fit: one that fails says nothing of it.
+        not_identifiable=() if failed else found.not_identifiable,
+    )
 
 
 def _limited(finding: Finding) -> Finding:

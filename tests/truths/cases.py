@@ -101,7 +101,7 @@ def _described(known: dict[str, Source], rng: np.random.Generator) -> Iterator[C
             f"{entry} of joint {joint} described {by:+g} m",
             known[name],
             asked,
-            (("kinematic_error", (joint,)),),
+            (("kinematic_error", (joint,)), ("link_length", (joint,))),
         )
     angle = np.radians(rng.uniform(5.0, 10.0))
     about = np.array([np.cos(turn := rng.uniform(0.0, 6.28)), np.sin(turn), 0.0])
