@@ -25,6 +25,7 @@ SKELETON = (
     "veritorque.core.log.model",
     "veritorque.core.regressor.kernel",
     "veritorque.core.robot.model",
+    "veritorque.core.robot_audit",
     "veritorque.core.setup_check",
     "veritorque.core.study",
     "veritorque.app.jobs.worker",
