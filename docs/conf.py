@@ -28,6 +28,7 @@ NAVIGATION = {
         "conflicts",
         "audit",
         "diagnosis",
+        "payload",
         "export",
         "http",
         "offline",

@@ -29,7 +29,7 @@ class Audit(Identify):
     words = Words(
         title="Audit of the description",
         hint=(
-            "Which masses, mass centres and inertias of the robot's description (URDF, CAD) the log "
+            "Which masses, mass centres and inertias of the robot's description the log "
             "contradicts, with a corrected description. Takes seconds."
         ),
         help="Audit the bodies of a description against logs; `robots audit` also does it without a log.",

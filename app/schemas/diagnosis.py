@@ -68,6 +68,28 @@ class Curve(Open):
     direction: Annotated[Numbers, about("1 forward motion, -1 backward motion, 0 both")]
 
 
+class FramedPayload(Open):
+    """A payload in a named frame that is fixed to its link."""
+
+    frame: Annotated[str, Field(examples=["tool0"])]
+    center_of_mass: Annotated[Numbers, about("m")]
+    inertia_at_com: Annotated[Numbers, about("XX XY XZ YY YZ ZZ about the mass centre, frame's axes, kg m2")]
+    paste: Annotated[dict[str, str], about("by controller: ur, abb, kuka, staubli")]
+
+
+class Payload(Open):
+    """The body that was attached or removed."""
+
+    link: Annotated[int, about("counted from 1")]
+    removed: bool
+    mass: Annotated[float, about("kg, positive also where it was removed")]
+    inertia_known: Annotated[bool, about("if not, zeros are written: a point mass")]
+    flange: Annotated[
+        str | None, about("the frame that is taken for the controller's; null if none is named")
+    ]
+    frames: list[FramedPayload]
+
+
 class Finding(Open):
     """A cause with its statistics."""
 
@@ -85,6 +107,7 @@ class Finding(Open):
     refuted: list[Alternative]
     gain: Gain | None
     curve: Curve | None
+    payload: Annotated[Payload | None, about("of a payload: in named frames, ready to paste")] = None
 
 
 class NotIdentifiable(Open):

@@ -100,6 +100,15 @@ class LinkPrior(Strict):
     ] = None
 
 
+class FixedFrame(Strict):
+    """A named frame fixed to a link, such as the flange."""
+
+    name: Annotated[str, Field(max_length=100, examples=["tool0"])]
+    link: Annotated[int, Field(ge=1, description="counted from 1")]
+    rotation: Annotated[list[Triple], Field(min_length=3, max_length=3, description="into the link's frame")]
+    translation: Annotated[Triple, about("origin in the link's frame, m")]
+
+
 class RobotDescription(Strict):
     """A robot: joints, gravity in the base frame, couplings, and the prior of its bodies."""
 
@@ -112,6 +121,9 @@ class RobotDescription(Strict):
     )
     couplings: list[CouplingDescription] | None = None
     prior: Annotated[list[LinkPrior] | None, about("one entry per joint")] = None
+    frames: Annotated[
+        list[FixedFrame] | None, Field(max_length=200, description="named frames: flange, tool0")
+    ] = None
 
 
 class RobotSummary(Open):

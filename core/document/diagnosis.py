@@ -19,6 +19,7 @@ from .identification import held_out_spans, identification_document, score_rows
 from .identified import BaseValue, IdentifiedRobot
 from .model_file import model_document
 from .numbers import plain
+from .payload import payload_row
 from .remainder import dependence_rows, spectrum_rows, unexplained
 from .repairs import repaired_description
 
@@ -36,7 +37,10 @@ def _diagnosis(found: Extension) -> dict[str, object]:
     listed = repairs(diagnosis)
     return {
         "verdict": diagnosis.verdict,
-        "findings": [finding_row(finding) for finding in diagnosis.findings],
+        "findings": [
+            finding_row(finding) | {"payload": payload_row(finding, diagnosis)}
+            for finding in diagnosis.findings
+        ],
         "not_identifiable": [not_identifiable_row(cause) for cause in diagnosis.not_identifiable],
         "unexplained": unexplained(diagnosis, least=VERDICT.unexplained_share),
         "reference": None if found.compared is None else _reference(found.compared, found.before),

@@ -23,6 +23,7 @@ from .model import (
     JointKind,
     Limits,
     Link,
+    NamedFrame,
     RobotModel,
 )
 from .modified_dh import ModifiedDHRow
@@ -40,6 +41,7 @@ ROBOT_FIELDS = {
     "gravity": "the acceleration of gravity in the base frame, m/s2, by default [0, 0, -9.81]",
     "couplings": "a list of motors whose angle is a weighted sum of joint positions",
     "prior": "null, or one entry per joint with the inertial parameters of a prior",
+    "frames": "null, or a list of named frames fixed to links, such as the flange",
 }
 JOINT_FIELDS = {
     "name": "a text (default joint_<number>)",
@@ -85,6 +87,13 @@ PRIOR_FIELDS = {
     "center_of_mass": "three numbers in m in the link's frame",
     "inertia_at_com": "six numbers XX XY XZ YY YZ ZZ in kg m2 about the mass centre, along the frame's axes",
 }
+FIXED_FRAME_FIELDS = {
+    "name": "a text, such as tool0 or flange",
+    "link": "the number of the joint whose link carries it, counted from 1",
+    "rotation": "three rows of three numbers: a rotation matrix from this frame into the link's",
+    "translation": "three numbers in m: this frame's origin in the link's frame",
+}
+MOST_FRAMES = 200
 SYMBOL_FIELDS = {symbol: f"a number in {unit}" for symbol, unit in INERTIAL_UNITS.items()}
 
 
@@ -125,6 +134,7 @@ def robot_from_description(description: object) -> RobotModel:
         couplings=_couplings(top, len(joints)),
         prior=_prior(top, len(links)),
         remarks=tuple(angle_remarks(_written_angles(rows))),
+        frames=_frames(top, len(links)),
     )
 
 
@@ -248,6 +258,18 @@ def _prior(top: Fields, links: int) -> LinkTable | None:
         return None
     bodies = top.items("prior", least=links, most=links)
     return np.array([_body(value, number) for number, value in enumerate(bodies, start=1)])
+
+
+def _frames(top: Fields, links: int) -> tuple[NamedFrame, ...]:
+    found: list[NamedFrame] = []
+    for position, value in enumerate(top.items("frames", most=MOST_FRAMES) if top.has("frames") else ()):
+        entry = RobotFields(value, f"frame {position + 1}", f"/frames/{position}", FIXED_FRAME_FIELDS)
+        name = entry.text("name")
+        if name in {earlier.name for earlier in found}:
+            entry.refuse("name", f"repeats {name}, which is taken")
+        link = entry.integer("link", (1, links))
+        found.append(NamedFrame(name, link, _rotation(entry), entry.numbers("translation", 3)))
+    return tuple(found)
 
 
 def _body(value: object, number: int) -> LinkParameters:

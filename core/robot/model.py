@@ -66,6 +66,18 @@ class Link:
     """The modified DH row its placement was computed from; None where the placement itself was given."""
 
 
+@dataclass(frozen=True, eq=False)
+class NamedFrame:
+    """Name a frame that is fixed to a link, such as a flange."""
+
+    name: str
+    link: int
+    """Number of the link, from 1."""
+    rotation: Rotation
+    translation: Vector3
+    """Rotation and translation (m): its pose in the link's frame."""
+
+
 @dataclass(frozen=True)
 class Coupling:
     """Describe a motor whose angle is a weighted sum of joint positions (Staubli TX40, motor 6: q5 + q6).
@@ -90,6 +102,8 @@ class RobotModel:
         Gravitational acceleration in the base frame, m/s2, pointing down.
     prior
         Ten inertial parameters per link, in each link's frame; None without a prior.
+    frames
+        Frames fixed to links that have names: the flange, and those of a URDF's links.
     remarks
         What its reader took otherwise than it is written, left out, or found odd, in sentences.
     """
@@ -101,6 +115,7 @@ class RobotModel:
     couplings: tuple[Coupling, ...] = ()
     prior: LinkTable | None = field(default=None)
     remarks: tuple[str, ...] = ()
+    frames: tuple[NamedFrame, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse trees that are no trees and vectors of the wrong length."""

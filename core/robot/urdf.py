@@ -15,10 +15,10 @@ import numpy as np
 from ..arrays import LinkParameters, LinkTable, Rotation, Vector3
 from ..errors import RobotError
 from ..fields import LARGEST_NUMBER
-from .description import LEVEL_GRAVITY, MOST_JOINTS
-from .frames import rotation_to
+from .description import LEVEL_GRAVITY, MOST_FRAMES, MOST_JOINTS
+from .frames import nearest_rotation, rotation_to
 from .inertia import transform_body
-from .model import Joint, JointKind, Link, RobotModel
+from .model import Joint, JointKind, Link, NamedFrame, RobotModel
 from .urdf_document import MOVING_KINDS, UrdfDocument, UrdfJoint, read_urdf_document
 from .urdf_elements import child
 from .urdf_part import Part, choose_part
@@ -148,8 +148,21 @@ def _assemble(document: UrdfDocument, part: Part, gravity: Vector3) -> RobotMode
         joints=joints,
         gravity=gravity,
         prior=_prior(document, part, bodies),
+        frames=_frames(links, placed),
         remarks=urdf_remarks(document, part),
     )
+
+
+def _frames(links: list[Link], placed: dict[str, _Placed]) -> tuple[NamedFrame, ...]:
+    """Name the frames of URDF links that are not frames of the robot: turned ones, and those at the ends."""
+    own = {link.name for link in links}
+    carrying = {link.antecedent for link in links}
+    named: list[NamedFrame] = []
+    for name, at in placed.items():
+        moved = not np.array_equal(at.rotation, np.eye(3)) or at.translation.any()
+        if at.number and (moved if name in own else at.number not in carrying):
+            named.append(NamedFrame(name, at.number, nearest_rotation(at.rotation), at.translation))
+    return tuple(named[:MOST_FRAMES])
 
 
 def _prior(document: UrdfDocument, part: Part, bodies: list[LinkParameters]) -> LinkTable | None:

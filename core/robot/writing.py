@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import RobotError
 from .description import FRAMES, MODIFIED_DH
-from .model import INERTIAL_SYMBOLS, Joint, Link, RobotModel
+from .model import INERTIAL_SYMBOLS, Joint, Link, NamedFrame, RobotModel
 
 
 def to_description(robot: RobotModel) -> dict[str, object]:
@@ -22,7 +22,7 @@ def to_description(robot: RobotModel) -> dict[str, object]:
     """
     owners = _owners(robot)
     tabular = owners == list(range(len(robot.links))) and all(map(_follows_its_row, robot.links))
-    return {
+    description: dict[str, object] = {
         "name": robot.name,
         "convention": MODIFIED_DH if tabular else FRAMES,
         "joints": [
@@ -41,6 +41,9 @@ def to_description(robot: RobotModel) -> dict[str, object]:
         ],
         "prior": None if robot.prior is None else [_body(body) for body in robot.prior],
     }
+    if robot.frames:
+        description["frames"] = [_named_frame(frame) for frame in robot.frames]
+    return description
 
 
 def _entry(link: Link, joint: Joint, *, tabular: bool, owner: bool) -> dict[str, object]:
@@ -111,6 +114,15 @@ def _drive(joint: Joint) -> dict[str, object]:
         "friction": list(joint.friction),
         "torque_constant": joint.torque_constant,
         "gear_ratio": joint.gear_ratio,
+    }
+
+
+def _named_frame(frame: NamedFrame) -> dict[str, object]:
+    return {
+        "name": frame.name,
+        "link": frame.link,
+        "rotation": [_floats(line) for line in frame.rotation],
+        "translation": _floats(frame.translation),
     }
 
 

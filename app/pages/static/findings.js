@@ -3,13 +3,32 @@ import { correctionActions } from "./again.js";
 import { element, fill } from "./dom.js";
 import { copied } from "./headline.js";
 import { scrolling } from "./wide.js";
+import { number } from "./words.js";
 
 /** Show the findings, each with its size, figure, improvement and alternatives; then the errors per joint. */
 export function showFindings(container, { job, document, report }) {
   const cards = [...report.querySelectorAll("article.finding")].map(copied);
   const none = element("p", {}, "No cause was found in this log.");
-  fill(container, corrected(job, document.diagnosis), element("div", { class: "told" }, cards.length ? cards : none, taken(report, "Errors per joint", "h3")));
+  fill(container, corrected(job, document.diagnosis), document.diagnosis.findings?.map(loads), element("div", { class: "told" }, cards.length ? cards : none, taken(report, "Errors per joint", "h3")));
   reachable(container);
+}
+
+const CONTROLLERS = { ur: "Universal Robots, URScript", abb: "ABB, RAPID", kuka: "KUKA, KRL", staubli: "Staubli, VAL 3" };
+
+// The body of a payload as controllers take it, in the frame of the flange where one is named.
+function loads({ payload }) {
+  if (!payload) return null;
+  const flange = payload.frames.find(({ frame }) => frame === payload.flange);
+  const shown = flange ?? payload.frames[0];
+  const centre = shown.center_of_mass.map((value) => number(value, 3)).join(", ");
+  return element("section", { class: "card", "aria-label": "Payload for the controller" },
+    element("h3", {}, "Payload for the controller"),
+    element("p", {}, `${number(payload.mass)} kg, mass centre at ${centre} m in the frame ${shown.frame}.`,
+      payload.inertia_known ? null : " The motion does not determine its inertia: zero is written."),
+    flange ? null : element("p", { class: "hint" }, "No frame of this link is named tool0 or flange: name it in frames of the description."),
+    Object.entries(shown.paste).map(([name, text]) => element("details", {}, element("summary", {}, CONTROLLERS[name] ?? name),
+      element("pre", { tabindex: "0" }, element("code", {}, text)))),
+    flange ? element("p", { class: "hint" }, "Compared with the makers' documentation, not tried on a controller.") : null);
 }
 
 // What the findings correct in the description belongs together: all of it is in the repaired robot.
