@@ -5,6 +5,7 @@ import numpy as np
 from ..arrays import LinkParameters, SquareMatrix
 from ..diagnosis.causes.protocol import FittedCause
 from ..diagnosis.causes.shared.bodies import body_of
+from ..diagnosis.causes.shared.own_joint import end_links, links_by_joint
 from ..diagnosis.result import Diagnosis, Finding
 from ..robot.inertia import from_mass_properties, mass_properties, transform_body
 from ..robot.model import NamedFrame, RobotModel
@@ -26,7 +27,8 @@ def payload_row(finding: Finding, diagnosis: Diagnosis) -> dict[str, object] | N
     solved: FittedCause = chosen.solved(chosen.members.index(finding.member))
     robot = diagnosis.dataset.robot
     joint = finding.joints[0]
-    link = max(number for number, own in enumerate(robot.links, start=1) if own.joint == joint)
+    throughout = "time" not in solved.scalars
+    link = (links_by_joint if throughout else end_links)(robot)[joint]
     return framed_payload(robot, link, solved.values, solved.covariance)
 
 

@@ -92,7 +92,13 @@ def test_a_body_on_the_last_link_is_named_with_its_mass_and_centre():
     assert (found["cause"], found["joints"], found["cure"]) == ("payload_change", [3], "robot")
     assert_sizes(found, LOAD)
     assert "since the reference" in found["statement"]
-    assert "time" not in {one["name"] for one in found["parameters"]}
+    sizes = {one["name"]: one["value"] for one in found["parameters"]}
+    assert "time" not in sizes
+    payload = found["payload"]
+    assert (payload["link"], payload["removed"], payload["flange"]) == (3, False, None)
+    assert payload["mass"] == pytest.approx(sizes["mass"])
+    centre = payload["frames"][0]["center_of_mass"][:2]
+    assert centre == pytest.approx([sizes["com_x"], sizes["com_y"]])
 
 
 @pytest.mark.slow
