@@ -73,6 +73,7 @@ def model_fields(found: Identification) -> dict[str, object]:
         "fit_total_percent": found.fit_total_percent,
         "validation": score_rows(found.validation),
         "validation_total_percent": found.validation_total_percent if found.validation else None,
+        "validation_reversals_percent": found.reversals_percent,
         "condition_number": found.excitation.condition_number,
         "condition_number_scaled": found.excitation.condition_number_scaled,
         "precision": _precision(found),
@@ -186,6 +187,8 @@ def _precision(found: Identification) -> dict[str, object]:
         "memory_factor": found.precision.memory_factor,
         "information_factor": write_factor(found.precision.root),
         "left_out_percent": 100.0 * (1.0 - _used_share(found.observation)),
+        "reversal_weights": found.reversal_weights,
+        "reversals_percent": 100.0 * _turning_share(found.observation),
         "bootstrap_draws": len(found.draws),
         "bootstrap_seed": found.seed,
     }
@@ -194,6 +197,12 @@ def _precision(found: Identification) -> dict[str, object]:
 def _used_share(observation: Observation) -> float:
     rows = sum(factor.rows for factor in observation.joint_factors())
     return rows / max(observation.kept * len(observation.columns_of), 1)
+
+
+def _turning_share(observation: Observation) -> float:
+    """Give the share of the equations that lie beside a reversal."""
+    turning = sum(factor.rows for factor in observation.turning_factors())
+    return turning / max(sum(factor.rows for factor in observation.joint_factors()), 1)
 
 
 def _path(found: Identification) -> list[dict[str, object]]:

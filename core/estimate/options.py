@@ -27,6 +27,8 @@ class EstimateOptions:
     """``clarabel`` called directly, or ``cvxpy``."""
     robust: bool = False
     """Weigh rows with Huber's function under the semidefinite programme too."""
+    weigh_reversals: bool = True
+    """Weigh rows beside a reversal, where the direction of friction is in doubt, by their own noise."""
     pull: float = PULL
     entropy: float = 0.0
     """Weights of the squared and of the entropic distance to the prior."""

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import BlockKey, Indices
+from ..arrays import BlockKey, Indices, JointVector
 from ..errors import ExcitationError
 from ..reduction.base import BaseModel
 from ..regressor.columns import ColumnPlan
@@ -15,6 +15,7 @@ from ..regressor.memory import LaggedProducts
 from ..regressor.observe import Observation, observe
 from ..signals.condition import Motion
 from .gaussian_prior import GaussianPrior
+from .reversals import reversal_weights
 from .system import ordinary
 
 
@@ -51,6 +52,10 @@ class ObservedProblem:
     problem: Problem
     observation: Observation
     robust: bool = False
+    weigh_reversals: bool = True
+    """Whether rows beside a reversal are weighted by their own noise."""
+    weights: JointVector | None = None
+    """Weight of these rows per joint; None while it is not told, and for one."""
 
     @property
     def size(self) -> int:
@@ -70,17 +75,38 @@ class ObservedProblem:
     @property
     def block_factors(self) -> tuple[tuple[Factor, ...], ...]:
         """Give the joints' factors of every fitted block."""
-        return tuple(self.observation.blocks[index].factors for index in self.fitted)
+        return tuple(
+            self.observation.blocks[index].discounted(self.reversal_weights) for index in self.fitted
+        )
 
     @cached_property
     def factors(self) -> tuple[Factor, ...]:
         """Merge the factors of the fitted blocks, one per joint."""
-        return self.observation.joint_factors(self.fitted)
+        parts = zip(*self._groups, self.reversal_weights, strict=True)
+        return tuple(moving.merged(turning.scaled(float(weight))) for moving, turning, weight in parts)
+
+    @property
+    def _groups(self) -> tuple[tuple[Factor, ...], tuple[Factor, ...]]:
+        seen = self.observation
+        return seen.moving_factors(self.fitted), seen.turning_factors(self.fitted)
+
+    @property
+    def reversal_weights(self) -> JointVector:
+        """Give, per joint, the weight of its rows beside a reversal."""
+        return np.ones(len(self.columns_of)) if self.weights is None else self.weights
+
+    def discounted(self) -> "ObservedProblem":
+        """Weigh the rows beside reversals by their own noise, unless that is not wanted."""
+        if not self.weigh_reversals:
+            return self
+        return replace(self, weights=reversal_weights(*self._groups, self.columns_of, self.size))
 
     @property
     def memory(self) -> tuple[LaggedProducts, ...]:
         """Give, per joint, the lagged products of the fitted rows."""
-        return self.observation.memory
+        seen = self.observation
+        parts = zip(seen.turning_memory, seen.memory, self.reversal_weights, strict=True)
+        return tuple(turning.discounted(whole, float(weight)) for turning, whole, weight in parts)
 
     def weighted(self, weigh: Weigh) -> "ObservedProblem":
         """Pass over the motions again with every row weighted."""

@@ -19,7 +19,7 @@ from ..precision.inference import infer
 from ..regressor.observe import Observation, torque_scales
 from ..validation.excitation import excitation
 from ..validation.mass_matrix import check_mass_matrix, pseudo_inertia_eigenvalues, workspace
-from ..validation.scores import scores, total_percent
+from ..validation.scores import reversals_percent, scores, total_percent
 from .options import IdentifyOptions
 from .result import Identification
 
@@ -45,7 +45,7 @@ def fit(
     if observation is None:
         observation = problem.observed(lambda done: tell("observe", 0.3 + 0.3 * done))
     tell("estimate", 0.6)
-    data = ObservedProblem(problem, observation, options.estimate.robust)
+    data = ObservedProblem(problem, observation, options.estimate.robust, options.estimate.weigh_reversals)
     data.check_excitation()
     step = options.estimate.method.equations(None, data)
     step = replace(step, system=step.system.with_prior(problem.prior))
@@ -88,6 +88,8 @@ def judge(
         fit_total_percent=total_percent(observation, fitted, answer.base),
         validation=scores(observation, held, answer.base) if held else (),
         validation_total_percent=total_percent(observation, held, answer.base) if held else 0.0,
+        reversals_percent=reversals_percent(observation, held, answer.base),
+        reversal_weights=data.reversal_weights,
         excitation=excitation(system.triangle),
         unconstrained_feasibility=feasibility(base, answer.unconstrained, prior),
         estimate_feasibility=feasibility(base, base.base_of(answer.standard), prior),

@@ -100,6 +100,7 @@ _SCALARS = {
     "estimator": "the name of an estimator",
     "solver": "the name of a solver",
     "robust": "true or false",
+    "weigh_reversals": "true or false",
     "terms": "null or a list of at least one torque term, each named once",
     "smooth_coulomb": "true or false",
     "essential": "true or false",

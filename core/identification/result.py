@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from ..arrays import BlockKey, Matrix
+from ..arrays import BlockKey, JointVector, Matrix
 from ..estimate.estimate import Estimate
 from ..estimate.feasibility import Feasibility
 from ..log.model import JointLog
@@ -32,6 +32,10 @@ class Identification:
     fit_total_percent: float
     validation: tuple[JointScore, ...]
     validation_total_percent: float
+    reversals_percent: float | None
+    """Held-out error beside reversals, which is not in the errors above; None without such rows."""
+    reversal_weights: JointVector
+    """Per joint, the weight in the fit of the rows beside its reversals."""
     excitation: ExcitationScore
     unconstrained_feasibility: Feasibility
     estimate_feasibility: Feasibility

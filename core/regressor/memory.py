@@ -12,7 +12,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..arrays import Indices, Matrix, Parameters, Rows, Vector
+from ..arrays import Indices, Matrix, Parameters, Rows, SampleMask, Vector
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,3 +63,46 @@ class LaggedProducts:
             product = self.products[lag][:-1, :-1]
             total += weight * (product + product.T)
         return np.asarray(total)
+
+
+@dataclass(frozen=True, eq=False)
+class TurningProducts:
+    """Hold the part of a joint's lagged products that rows beside a reversal have in them.
+
+    So that these rows can be weighted when their noise is known, without another pass over the log.
+    """
+
+    one: np.ndarray
+    both: np.ndarray
+    """Products of pairs of which one row, or both, lie beside a reversal."""
+
+    @classmethod
+    def empty(cls, columns: int) -> "TurningProducts":
+        """Start with no rows."""
+        none = np.zeros((LaggedProducts.LAGS + 1, columns, columns))
+        return cls(none, none)
+
+    def extended(self, rows: Rows, turning: SampleMask, first: int) -> "TurningProducts":
+        """Take in the rows from the `first` on; those before it are already taken."""
+        parts = np.stack([self.one, self.both])
+        for lag in range(LaggedProducts.LAGS + 1):
+            place = np.arange(max(first, lag), len(rows))
+            count = turning[place - lag].astype(int) + turning[place]
+            for part, wanted in zip(parts, (1, 2), strict=True):
+                found = place[count == wanted]
+                part[lag] += rows[found - lag].T @ rows[found]
+        return TurningProducts(*parts)
+
+    def merged(self, other: "TurningProducts") -> "TurningProducts":
+        """Join the products of two stretches."""
+        return TurningProducts(self.one + other.one, self.both + other.both)
+
+    def over(self, columns: Indices) -> "TurningProducts":
+        """Keep the products of some of the columns; the last of those given is the torque's."""
+        square = (slice(None), columns[:, None], columns)
+        return TurningProducts(self.one[square], self.both[square])
+
+    def discounted(self, whole: LaggedProducts, weight: float) -> LaggedProducts:
+        """Give the lagged products of all rows, those beside a reversal times a weight."""
+        less = (1.0 - weight) * self.one + (1.0 - weight**2) * self.both
+        return LaggedProducts(whole.products - less, whole.rows)

@@ -7,19 +7,20 @@ choose from.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import reduce
+from functools import cached_property, reduce
 
 import numpy as np
 
-from ..arrays import BaseParameters, BlockKey, Indices, JointSeries, JointVector, Samples
+from ..arrays import BaseParameters, BlockKey, Indices, JointSeries, JointVector, Rows, Samples
 from ..errors import OptionError
 from ..signals.condition import Motion
 from ..signals.parallel import Tile
 from .columns import ColumnPlan
 from .factor import Factor, FilteredRows, Weigh
-from .memory import LaggedProducts
+from .memory import LaggedProducts, TurningProducts
 
 _POSITIONS_PER_TILE = 32
+_UNMARKED = np.zeros(0, dtype=bool)
 Progress = Callable[[float], None]
 
 
@@ -31,10 +32,22 @@ class Block:
     number: int
     start: float
     end: float
-    factors: tuple[Factor, ...]
-    """Per joint, over the joint's non-zero columns and torque."""
+    moving: tuple[Factor, ...]
+    turning: tuple[Factor, ...]
+    """Per joint, over its non-zero columns and torque: the rows in which the direction of its friction is
+    known, and those beside a reversal."""
     torque_range: tuple[tuple[float, float], ...]
     """Per joint, smallest and largest filtered torque, N m."""
+
+    @cached_property
+    def factors(self) -> tuple[Factor, ...]:
+        """Give, per joint, the factor of all rows."""
+        return self.discounted(np.ones(len(self.moving)))
+
+    def discounted(self, weights: JointVector) -> tuple[Factor, ...]:
+        """Give, per joint, the factor of all rows, those beside a reversal times a weight."""
+        parts = zip(self.moving, self.turning, weights, strict=True)
+        return tuple(moving.merged(turning.scaled(float(weight))) for moving, turning, weight in parts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +61,8 @@ class Observation:
     """Per joint, the positions in `plan.columns` that its factors run over."""
     memory: tuple[LaggedProducts, ...]
     """Per joint, the lagged products of its rows."""
+    turning_memory: tuple[TurningProducts, ...]
+    """Per joint, those of them that rows beside a reversal have a part in."""
     positions: JointSeries
     """A sample of the positions along the motions, rad or m."""
     kept: int
@@ -55,9 +70,27 @@ class Observation:
 
     def joint_factors(self, chosen: tuple[int, ...] | None = None) -> tuple[Factor, ...]:
         """Merge the factors of the chosen blocks (all by default), one per joint."""
-        picked = self.blocks if chosen is None else tuple(self.blocks[index] for index in chosen)
+        return self._merged([block.factors for block in self._picked(chosen)])
+
+    def moving_factors(self, chosen: tuple[int, ...] | None = None) -> tuple[Factor, ...]:
+        """Give the same of the rows in which the direction of the joint's friction is known."""
+        return self._merged([block.moving for block in self._picked(chosen)])
+
+    def turning_factors(self, chosen: tuple[int, ...] | None = None) -> tuple[Factor, ...]:
+        """Give the same of the rows beside a reversal."""
+        return self._merged([block.turning for block in self._picked(chosen)])
+
+    def scored_factors(self, chosen: tuple[int, ...]) -> tuple[Factor, ...]:
+        """Give the rows that a model can be judged by: the moving ones; all of a joint that has none."""
+        pairs = zip(self.moving_factors(chosen), self.turning_factors(chosen), strict=True)
+        return tuple(moving if moving.rows else turning for moving, turning in pairs)
+
+    def _picked(self, chosen: tuple[int, ...] | None) -> tuple[Block, ...]:
+        return self.blocks if chosen is None else tuple(self.blocks[index] for index in chosen)
+
+    def _merged(self, blocks: list[tuple[Factor, ...]]) -> tuple[Factor, ...]:
         return tuple(
-            reduce(Factor.merged, (block.factors[joint] for block in picked), Factor.empty(len(columns) + 1))
+            reduce(Factor.merged, (block[joint] for block in blocks), Factor.empty(len(columns) + 1))
             for joint, columns in enumerate(self.columns_of)
         )
 
@@ -95,10 +128,11 @@ class Observation:
         ]
 
         def fewer(block: Block) -> Block:
-            return replace(
-                block,
-                factors=tuple(factor.over(own) for factor, own in zip(block.factors, kept, strict=True)),
+            moving, turning = (
+                tuple(factor.over(own) for factor, own in zip(factors, kept, strict=True))
+                for factors in (block.moving, block.turning)
             )
+            return replace(block, moving=moving, turning=turning)
 
         return replace(
             self,
@@ -106,6 +140,9 @@ class Observation:
             blocks=tuple(fewer(block) for block in self.blocks),
             columns_of=plan.columns_of,
             memory=tuple(products.over(own) for products, own in zip(self.memory, kept, strict=True)),
+            turning_memory=tuple(
+                products.over(own) for products, own in zip(self.turning_memory, kept, strict=True)
+            ),
         )
 
 
@@ -133,12 +170,16 @@ def observe(
     gathered = [_Gathering(plan, weigh, held_out, number) for number in range(len(motions))]
     total = _take_all(motions, gathered, progress)
     blocks = tuple(block for gathering in gathered for block in gathering.blocks())
+    joints = range(len(plan.columns_of))
     memory = tuple(
-        reduce(LaggedProducts.merged, (gathering.memory[joint] for gathering in gathered))
-        for joint in range(len(plan.columns_of))
+        reduce(LaggedProducts.merged, (gathering.memory[joint] for gathering in gathered)) for joint in joints
+    )
+    turning = tuple(
+        reduce(TurningProducts.merged, (gathering.turning[joint] for gathering in gathered))
+        for joint in joints
     )
     positions = np.vstack([position for gathering in gathered for position in gathering.positions])
-    return Observation(plan, blocks, plan.columns_of, memory, positions, total)
+    return Observation(plan, blocks, plan.columns_of, memory, turning, positions, total)
 
 
 def _take_all(motions: tuple[Motion, ...], gathered: list["_Gathering"], progress: Progress | None) -> int:
@@ -172,7 +213,8 @@ class _Gathering:
         self.held_out = held_out
         self.log = log
         self.memory = [LaggedProducts.empty(len(columns) + 1) for columns in plan.columns_of]
-        self._tails = [np.zeros((0, len(columns) + 1)) for columns in plan.columns_of]
+        self.turning = [TurningProducts.empty(len(columns) + 1) for columns in plan.columns_of]
+        self._tails = [_Tail(np.zeros((0, len(columns) + 1)), _UNMARKED) for columns in plan.columns_of]
         self._blocks: dict[int, _OpenBlock] = {}
         self.positions: list[JointSeries] = []
 
@@ -182,40 +224,64 @@ class _Gathering:
         step = tile.parallel.decimation * (1 + len(tile.time) // _POSITIONS_PER_TILE)
         self.positions.append(tile.state.position[tile.first :: step][:_POSITIONS_PER_TILE].copy())
         if not tile.follows:
-            self._tails = [tail[:0] for tail in self._tails]
+            self._tails = [tail.none for tail in self._tails]
         pairs = list(equations(self.plan, tile))
         weights = None if self.weigh is None else self.weigh(pairs)
         for joint, (rows, usable) in enumerate(pairs):
             marked = rows * (usable if weights is None else usable * weights[joint])[:, None]
-            block.take(joint, marked[usable], rows[usable, -1])
+            turning = tile.turning[:, joint]
+            block.take(joint, (marked[usable & ~turning], marked[turning]), rows[usable, -1])
             if (self.log, tile.block) in self.held_out:
-                self._tails[joint] = self._tails[joint][:0]
+                self._tails[joint] = self._tails[joint].none
             else:
-                self.memory[joint] = self.memory[joint].extended(
-                    self._tails[joint], marked, int(usable.sum())
-                )
-                self._tails[joint] = np.vstack([self._tails[joint], marked])[-LaggedProducts.LAGS :]
+                self._remember(joint, marked, turning, int(usable.sum()))
+
+    def _remember(self, joint: int, rows: np.ndarray, turning: np.ndarray, used: int) -> None:
+        tail = self._tails[joint]
+        self.memory[joint] = self.memory[joint].extended(tail.rows, rows, used)
+        joined = _Tail(np.vstack([tail.rows, rows]), np.append(tail.turning, turning))
+        self.turning[joint] = self.turning[joint].extended(joined.rows, joined.turning, len(tail.rows))
+        self._tails[joint] = joined.last
 
     def blocks(self) -> list[Block]:
         return [self._blocks[number].closed(self.log, number) for number in sorted(self._blocks)]
 
 
+@dataclass(frozen=True, eq=False)
+class _Tail:
+    """Hold the last rows of a joint, and which of them lie beside a reversal."""
+
+    rows: np.ndarray
+    turning: np.ndarray
+
+    @property
+    def none(self) -> "_Tail":
+        return _Tail(self.rows[:0], self.turning[:0])
+
+    @property
+    def last(self) -> "_Tail":
+        return _Tail(self.rows[-LaggedProducts.LAGS :], self.turning[-LaggedProducts.LAGS :])
+
+
 class _OpenBlock:
     def __init__(self, plan: ColumnPlan, start: float) -> None:
         self.start = self.end = start
-        self.factors = [Factor.empty(len(columns) + 1) for columns in plan.columns_of]
+        self.moving = [Factor.empty(len(columns) + 1) for columns in plan.columns_of]
+        self.turning = list(self.moving)
         self.low = np.full(len(plan.columns_of), np.inf)
         self.high = np.full(len(plan.columns_of), -np.inf)
 
-    def take(self, joint: int, rows: np.ndarray, torque: Samples) -> None:
-        if len(rows):
-            self.factors[joint] = self.factors[joint].extended(rows)
+    def take(self, joint: int, parts: tuple[Rows, Rows], torque: Samples) -> None:
+        """Take a joint's moving rows and those beside a reversal."""
+        self.moving[joint] = self.moving[joint].extended(parts[0])
+        self.turning[joint] = self.turning[joint].extended(parts[1])
+        if len(torque):
             self.low[joint] = min(self.low[joint], float(torque.min()))
             self.high[joint] = max(self.high[joint], float(torque.max()))
 
     def closed(self, log: int, number: int) -> Block:
         ranges = tuple((float(low), float(high)) for low, high in zip(self.low, self.high, strict=True))
-        return Block(log, number, self.start, self.end, tuple(self.factors), ranges)
+        return Block(log, number, self.start, self.end, tuple(self.moving), tuple(self.turning), ranges)
 
 
 def compare(plan: ColumnPlan, tile: Tile, parameters: BaseParameters) -> tuple[JointSeries, JointSeries]:

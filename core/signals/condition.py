@@ -11,7 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..arrays import JointVector
+from ..arrays import JointVector, Matrix
 from ..errors import LogError
 from ..log.model import JointLog
 from ..robot.joint_units import prismatic_joints
@@ -73,8 +73,11 @@ def condition(
             remedy="map one position and one torque (or current) column to every joint of the robot",
         )
     recipe = choose_recipe(log, options or FilterOptions(), prismatic_joints(robot))
+    motors = _shared_motors(robot)
     segments = tuple(
-        segment for segment in (gap_free(log, recipe, *span) for span in log.segments) if segment is not None
+        segment
+        for segment in (gap_free(log, recipe, span, motors) for span in log.segments)
+        if segment is not None
     )
     if not segments:
         raise LogError(
@@ -83,6 +86,14 @@ def condition(
             remedy="record at least one second without gaps",
         )
     return Motion(log, recipe, effort_scale(log, robot), blocks, segments)
+
+
+def _shared_motors(robot: RobotModel) -> Matrix:
+    """Give the weights of the joints' speeds in the motors that move several, motors x joints."""
+    weights = np.zeros((len(robot.couplings), len(robot.joints)))
+    for row, coupling in zip(weights, robot.couplings, strict=True):
+        row[np.array(coupling.joints) - 1] = coupling.weights
+    return weights
 
 
 def effort_scale(log: JointLog, robot: RobotModel) -> JointVector:

@@ -61,6 +61,12 @@ def noise_floor(position: JointSeries, rate_hz: float, band_hz: float) -> JointV
     """Give the power density of a position's noise, rad2/Hz (m2/Hz): where the acceleration's is least.
 
     From there the motion's own density rises downwards, and the noise's upwards.
+
+    Notes
+    -----
+    A joint that sticks at its reversals starts with a step of acceleration, whose density does not rise with
+    frequency. Where it does not rise at least in proportion up to the highest frequency that is read, what is
+    least is still motion, and the noise is not above the density at that highest frequency.
     """
     velocity = differentiate(position, rate_hz)
     size = 2 * (min(len(velocity), max(64, int(_SECONDS * rate_hz))) // 2)
@@ -68,18 +74,20 @@ def noise_floor(position: JointSeries, rate_hz: float, band_hz: float) -> JointV
     highest = SPECTRUM_OVER_RATE * rate_hz
     count = max(1, int(BINS_PER_OCTAVE * np.log2(max(highest / band_hz, 1.0))))
     edges = highest * 2.0 ** (-np.arange(count, -1.0, -1.0) / BINS_PER_OCTAVE)
-    place = np.digitize(frequency, edges)
-    found = np.zeros((0, 2, position.shape[1]))
+    bins = np.digitize(frequency, edges)
+    turns, speeds = list[float](), list[JointVector]()
     for number in range(1, len(edges)):
-        inside = place == number
+        inside = bins == number
         if inside.any():
-            density = np.median(power[inside], axis=0)
-            turn = 2.0 * np.pi * float(np.mean(frequency[inside]))
-            found = np.concatenate([found, [[density * turn**2, density / turn**2]]])
-    if not len(found):
+            speeds.append(np.median(power[inside], axis=0))
+            turns.append(2.0 * np.pi * float(np.mean(frequency[inside])))
+    if not speeds:
         return np.zeros(position.shape[1])
-    least = np.argmin(found[:, 0], axis=0)
-    return np.asarray(found[least, 1, np.arange(position.shape[1])])
+    density, turn = np.array(speeds), np.array(turns)
+    least, joints = np.argmin(density * turn[:, None] ** 2, axis=0), np.arange(position.shape[1])
+    rises = density[-1] * turn[-1] >= density[least, joints] * turn[least]
+    place = np.where(rises, least, len(turn) - 1)
+    return np.asarray(density[place, joints] / turn[place] ** 2)
 
 
 def own_acceleration(position: JointSeries, rate_hz: float, band_hz: float) -> JointVector:

@@ -80,6 +80,8 @@ class Tile:
     """Sample at which the first kept instant lies, and the kept instants in s."""
     usable: InstantMask
     """Which kept instants may be used for which joint."""
+    turning: InstantMask
+    """Which of these lie so near a reversal that the direction of the joint's friction is in doubt."""
     block: int
     """Number of the log's block that the tile belongs to."""
     follows: bool

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.ndimage import maximum_filter1d
 from scipy.signal import oaconvolve
 
-from ..arrays import Instants, InstantSeries, JointMask, JointSeries, JointVector, SampleMask, Samples
+from ..arrays import Instants, InstantSeries, JointMask, JointSeries, JointVector, Matrix, SampleMask, Samples
 from ..log.defects.clock import GAP_STEPS, longest_bridge
 from ..log.model import JointLog, LogRows
 from .derivative import REACH, absurd_reach, differentiate, without_absurd
@@ -44,6 +44,8 @@ class Segment:
     """Its uniform clock: first instant in s, mean rate, number of instants."""
     stamps: Samples | None
     """The real stamps in s where they deviate from that clock, else None."""
+    motors: Matrix
+    """Weights of the joints' speeds in those of motors that move several joints, motors x joints."""
 
     @cached_property
     def kept(self) -> int:
@@ -72,13 +74,19 @@ class Segment:
         """Count the samples on either side that bear on a conditioned one."""
         return reach_of(self.low_pass, END_SHARE) + absurd_reach(self.recipe.median_order) + 2 * REACH
 
+    @property
+    def direction_samples(self) -> int:
+        """Count the samples on either side up to which the filter on q blurs when a joint turns round."""
+        return int(np.ceil(self.rate_hz / self.recipe.position_cutoff_hz))
+
     def tile(self, effort_scale: JointVector, first_kept: int, last_kept: int, block: int) -> Tile:
         """Condition the stretch that the kept instants from first up to, not including, last need."""
         step, reach = self.recipe.decimation, self.parallel.reach
         first, last = first_kept * step, (last_kept - 1) * step
         begin, end = max(0, first - reach), min(self.samples, last + reach + 1)
         # A standstill is known by its length, so the search for it reaches that much further than the filter.
-        early, late = max(0, begin - self.still_samples), min(self.samples, end + self.still_samples)
+        halo = max(self.still_samples, self.direction_samples + 1)
+        early, late = max(0, begin - halo), min(self.samples, end + halo)
         wide, torque, unknown = self._condition(early, late)
         inner = slice(begin - early, end - early)
         now = self.begin_time + np.arange(begin, end) / self.rate_hz
@@ -86,14 +94,20 @@ class Segment:
             wide.position[inner], wide.velocity[inner], wide.acceleration[inner], now, self._temperature(now)
         )
         marks = (self._unusable(wide.velocity, early) | unknown[:, None])[inner]
-        influence = self.parallel.influence(marks.T.astype(float), first - begin, last_kept - first_kept)
+        turns = self._undirected(wide.velocity)[inner]
+        unusable, turning = (
+            self.parallel.influence(mask.T.astype(float), first - begin, last_kept - first_kept).T
+            > UNUSABLE_SHARE
+            for mask in (marks, turns)
+        )
         return Tile(
             state=state,
             torque=torque[inner] * effort_scale,
             parallel=self.parallel,
             first=first - begin,
             time=self.begin_time + np.arange(first_kept, last_kept) * (step / self.rate_hz),
-            usable=influence.T <= UNUSABLE_SHARE,
+            usable=~unusable,
+            turning=turning & ~unusable,
             block=block,
             follows=first_kept > 0,
         )
@@ -157,6 +171,19 @@ class Segment:
         slow = np.abs(velocity) <= self.recipe.still_speed
         return np.asarray(ends[:, None] | _long_runs(slow, self.still_samples) | self._unmeasured)
 
+    def _undirected(self, velocity: JointSeries) -> JointMask:
+        """Mark the samples at which it is not known which way a joint moves, nor so its friction.
+
+        It is known where the speed has one sign over a period of the cut-off of the filter on q, before and
+        after.
+        """
+        still = self.recipe.still_speed
+        marks = _changes_sign(velocity, still)
+        if len(self.motors):
+            own = _changes_sign(velocity @ self.motors.T, np.sqrt(self.motors**2 @ still**2))
+            marks |= (own.astype(float) @ (self.motors != 0.0)) > 0.0
+        return np.asarray(maximum_filter1d(marks, 2 * self.direction_samples + 1, axis=0, mode="constant"))
+
     @cached_property
     def _unmeasured(self) -> np.ndarray:
         """Mark the joints whose torque was not measured, though other joints' was."""
@@ -167,8 +194,14 @@ class Segment:
         return silent
 
 
-def gap_free(log: JointLog, recipe: Recipe, start: int, stop: int) -> Segment | None:
-    """Check the stamps of some rows; None where they are too few or too slow to be differentiated."""
+def gap_free(
+    log: JointLog, recipe: Recipe, span: tuple[int, int], motors: Matrix | None = None
+) -> Segment | None:
+    """Check the stamps of some rows; None where they are too few or too slow to be differentiated.
+
+    `motors` are the weights of motors that move several joints; none by default.
+    """
+    start, stop = span
     stamps = np.concatenate(
         [log.source.rows(row, min(row + 65536, stop)).time for row in range(start, stop, 65536)]
     )
@@ -176,7 +209,19 @@ def gap_free(log: JointLog, recipe: Recipe, start: int, stop: int) -> Segment | 
         return None
     rate = (len(stamps) - 1) / (stamps[-1] - stamps[0])
     even = is_uniform(stamps, float(rate))
-    return Segment(log, recipe, start, float(stamps[0]), float(rate), len(stamps), None if even else stamps)
+    shared = np.zeros((0, log.joints)) if motors is None else motors
+    return Segment(
+        log, recipe, start, float(stamps[0]), float(rate), len(stamps), None if even else stamps, shared
+    )
+
+
+def _changes_sign(velocity: JointSeries, still: JointVector) -> JointMask:
+    """Mark the samples that are still, and both between which the sign changes."""
+    marks = np.abs(velocity) <= still
+    turned = np.sign(velocity[1:]) != np.sign(velocity[:-1])
+    marks[1:] |= turned
+    marks[:-1] |= turned
+    return np.asarray(marks)
 
 
 def _long_runs(mask: JointMask, run: int) -> JointMask:

@@ -1,7 +1,7 @@
 """Score a prediction joint by joint, with the denominator of every relative error in its name.
 
 An error of a tenth of the torque's range and one of a tenth of its RMS differ by a factor of three to six;
-papers mix them.
+papers mix them. Rows beside a reversal are judged apart: there a sign of velocity does not tell friction.
 """
 
 from dataclasses import dataclass
@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import BaseParameters, Indices
+from ..regressor.factor import Factor
 from ..regressor.observe import Block, Observation
 from ..robot.joint_units import prismatic_joints
 
@@ -32,7 +33,7 @@ class JointScore:
 def scores(observation: Observation, chosen: tuple[int, ...], base: BaseParameters) -> tuple[JointScore, ...]:
     """Score every joint over the chosen blocks."""
     blocks = [observation.blocks[index] for index in chosen]
-    factors = observation.joint_factors(chosen)
+    factors = observation.scored_factors(chosen)
     return tuple(
         _score(joint, blocks, (factor.residual_square(base[columns]), factor.torque_square, factor.rows))
         for joint, (factor, columns) in enumerate(zip(factors, observation.columns_of, strict=True))
@@ -47,7 +48,18 @@ def total_percent(observation: Observation, chosen: tuple[int, ...], base: BaseP
     Newtons are not added to newton metres: where joints turn and slide, the squared shares of both kinds are
     averaged.
     """
-    factors = observation.joint_factors(chosen)
+    return _total(observation, observation.scored_factors(chosen), base)
+
+
+def reversals_percent(
+    observation: Observation, chosen: tuple[int, ...], base: BaseParameters
+) -> float | None:
+    """Give the same of the rows beside reversals; None where there are none."""
+    factors = observation.turning_factors(chosen)
+    return _total(observation, factors, base) if any(factor.rows for factor in factors) else None
+
+
+def _total(observation: Observation, factors: tuple[Factor, ...], base: BaseParameters) -> float:
     columns_of: tuple[Indices, ...] = observation.columns_of
     left = np.array(
         [factor.residual_square(base[columns]) for factor, columns in zip(factors, columns_of, strict=True)]

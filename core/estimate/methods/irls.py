@@ -30,7 +30,7 @@ class IterativelyReweighted:
 
     def equations(self, at: BaseParameters | None, data: FitData) -> Step:  # noqa: ARG002  (the same at any robot)
         """Write the equations, which are the same at any robot."""
-        return huber_equations(data)
+        return huber_equations(data.discounted())
 
 
 def huber_equations(data: FitData) -> Step:

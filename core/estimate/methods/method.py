@@ -7,7 +7,7 @@ filter at its end. Whatever the method, its equations are solved as they are or 
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
-from ...arrays import BaseParameters, Indices
+from ...arrays import BaseParameters, Indices, JointVector
 from ...regressor.factor import Factor, Weigh
 from ...regressor.memory import LaggedProducts
 from ..system import System
@@ -40,6 +40,13 @@ class FitData(Protocol):
     @property
     def memory(self) -> tuple[LaggedProducts, ...]:
         """Give, per joint, the lagged products of the fitted rows."""
+
+    @property
+    def reversal_weights(self) -> JointVector:
+        """Give, per joint, the weight of its rows beside a reversal."""
+
+    def discounted(self) -> "FitData":
+        """Weigh the rows beside reversals by their own noise, unless that is not wanted."""
 
     def weighted(self, weigh: Weigh) -> "FitData":
         """Pass over the motions again with every row weighted."""

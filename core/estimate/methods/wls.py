@@ -13,7 +13,7 @@ from .method import FitData, Step
 
 @dataclass(frozen=True)
 class WeightedLeastSquares:
-    """Weight the equations per joint, and per row where a robust fit is asked for."""
+    """Weight the equations per joint and beside its reversals, and per row for a robust fit."""
 
     name: str = "wls"
     title: str = "weighted, may be inconsistent"
@@ -23,6 +23,7 @@ class WeightedLeastSquares:
 
     def equations(self, at: BaseParameters | None, data: FitData) -> Step:  # noqa: ARG002  (the same at any robot)
         """Write the equations, which are the same at any robot."""
+        data = data.discounted()
         if data.robust:
             return huber_equations(data)
         return Step(weighted(data.factors, data.columns_of, data.size), data)

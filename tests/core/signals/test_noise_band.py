@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from scipy import signal
 
 from tests.core.signals.motions import Multisine, log_of
 from tests.measured import measured_log
@@ -33,6 +34,16 @@ def _noise(size: float) -> np.ndarray:
 def test_the_floor_is_the_density_of_the_noise_beside_a_motion_a_hundred_thousand_times_its_size(size):
     floor = noise_floor(_wandering() + _noise(size), RATE_HZ, 1.0)
     assert floor[0] == pytest.approx(2.0 * size**2 / RATE_HZ, rel=0.4)
+
+
+def test_steps_of_acceleration_as_of_a_joint_that_sticks_are_not_taken_for_noise():
+    rng = np.random.default_rng(6)
+    steps = np.repeat(rng.normal(size=len(TIME) // 50), 50) * 0.3
+    kinks = np.cumsum(np.cumsum(steps - steps.mean()) / RATE_HZ) / RATE_HZ
+    smooth = signal.sosfiltfilt(signal.butter(2, 0.2, "high", fs=RATE_HZ, output="sos"), kinks)
+    floor = noise_floor(_wandering() + smooth[:, None] + _noise(1e-6), RATE_HZ, 1.0)
+    assert floor[0] < 1e4 * 2.0 * 1e-6**2 / RATE_HZ
+    assert noise_cutoff([_wandering() + smooth[:, None]], RATE_HZ, 1.0, MOVING) > 10.0
 
 
 def test_a_hundred_times_the_noise_lowers_the_band_by_the_fifth_root_of_its_square():
