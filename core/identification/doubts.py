@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import JointVector, Mask
 from ..log.model import Defect
-from ..regressor.observe import Block
+from ..regressor.block import Block
 from .result import Identification
 
 HIGH_COST = 1.25

@@ -7,14 +7,15 @@ choose from.
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property, reduce
+from functools import reduce
 
 import numpy as np
 
-from ..arrays import BaseParameters, BlockKey, Indices, JointSeries, JointVector, Rows, Samples
+from ..arrays import BaseParameters, BlockKey, Indices, JointSeries, JointVector, Samples
 from ..errors import OptionError
 from ..signals.condition import Motion
 from ..signals.parallel import Tile
+from .block import Block, OpenBlock, Tail
 from .columns import ColumnPlan
 from .factor import Factor, FilteredRows, Weigh
 from .memory import LaggedProducts, TurningProducts
@@ -22,32 +23,6 @@ from .memory import LaggedProducts, TurningProducts
 _POSITIONS_PER_TILE = 32
 _UNMARKED = np.zeros(0, dtype=bool)
 Progress = Callable[[float], None]
-
-
-@dataclass(frozen=True, eq=False)
-class Block:
-    """Hold one contiguous stretch of one log, condensed."""
-
-    log: int
-    number: int
-    start: float
-    end: float
-    moving: tuple[Factor, ...]
-    turning: tuple[Factor, ...]
-    """Per joint, over its non-zero columns and torque: the rows in which the direction of its friction is
-    known, and those beside a reversal."""
-    torque_range: tuple[tuple[float, float], ...]
-    """Per joint, smallest and largest filtered torque, N m."""
-
-    @cached_property
-    def factors(self) -> tuple[Factor, ...]:
-        """Give, per joint, the factor of all rows."""
-        return self.discounted(np.ones(len(self.moving)))
-
-    def discounted(self, weights: JointVector) -> tuple[Factor, ...]:
-        """Give, per joint, the factor of all rows, those beside a reversal times a weight."""
-        parts = zip(self.moving, self.turning, weights, strict=True)
-        return tuple(moving.merged(turning.scaled(float(weight))) for moving, turning, weight in parts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -214,12 +189,12 @@ class _Gathering:
         self.log = log
         self.memory = [LaggedProducts.empty(len(columns) + 1) for columns in plan.columns_of]
         self.turning = [TurningProducts.empty(len(columns) + 1) for columns in plan.columns_of]
-        self._tails = [_Tail(np.zeros((0, len(columns) + 1)), _UNMARKED) for columns in plan.columns_of]
-        self._blocks: dict[int, _OpenBlock] = {}
+        self._tails = [Tail(np.zeros((0, len(columns) + 1)), _UNMARKED) for columns in plan.columns_of]
+        self._blocks: dict[int, OpenBlock] = {}
         self.positions: list[JointSeries] = []
 
     def take(self, tile: Tile) -> None:
-        block = self._blocks.setdefault(tile.block, _OpenBlock(self.plan, float(tile.time[0])))
+        block = self._blocks.setdefault(tile.block, OpenBlock(self.plan, float(tile.time[0])))
         block.end = float(tile.time[-1])
         step = tile.parallel.decimation * (1 + len(tile.time) // _POSITIONS_PER_TILE)
         self.positions.append(tile.state.position[tile.first :: step][:_POSITIONS_PER_TILE].copy())
@@ -239,49 +214,12 @@ class _Gathering:
     def _remember(self, joint: int, rows: np.ndarray, turning: np.ndarray, used: int) -> None:
         tail = self._tails[joint]
         self.memory[joint] = self.memory[joint].extended(tail.rows, rows, used)
-        joined = _Tail(np.vstack([tail.rows, rows]), np.append(tail.turning, turning))
+        joined = Tail(np.vstack([tail.rows, rows]), np.append(tail.turning, turning))
         self.turning[joint] = self.turning[joint].extended(joined.rows, joined.turning, len(tail.rows))
         self._tails[joint] = joined.last
 
     def blocks(self) -> list[Block]:
         return [self._blocks[number].closed(self.log, number) for number in sorted(self._blocks)]
-
-
-@dataclass(frozen=True, eq=False)
-class _Tail:
-    """Hold the last rows of a joint, and which of them lie beside a reversal."""
-
-    rows: np.ndarray
-    turning: np.ndarray
-
-    @property
-    def none(self) -> "_Tail":
-        return _Tail(self.rows[:0], self.turning[:0])
-
-    @property
-    def last(self) -> "_Tail":
-        return _Tail(self.rows[-LaggedProducts.LAGS :], self.turning[-LaggedProducts.LAGS :])
-
-
-class _OpenBlock:
-    def __init__(self, plan: ColumnPlan, start: float) -> None:
-        self.start = self.end = start
-        self.moving = [Factor.empty(len(columns) + 1) for columns in plan.columns_of]
-        self.turning = list(self.moving)
-        self.low = np.full(len(plan.columns_of), np.inf)
-        self.high = np.full(len(plan.columns_of), -np.inf)
-
-    def take(self, joint: int, parts: tuple[Rows, Rows], torque: Samples) -> None:
-        """Take a joint's moving rows and those beside a reversal."""
-        self.moving[joint] = self.moving[joint].extended(parts[0])
-        self.turning[joint] = self.turning[joint].extended(parts[1])
-        if len(torque):
-            self.low[joint] = min(self.low[joint], float(torque.min()))
-            self.high[joint] = max(self.high[joint], float(torque.max()))
-
-    def closed(self, log: int, number: int) -> Block:
-        ranges = tuple((float(low), float(high)) for low, high in zip(self.low, self.high, strict=True))
-        return Block(log, number, self.start, self.end, tuple(self.moving), tuple(self.turning), ranges)
 
 
 def compare(plan: ColumnPlan, tile: Tile, parameters: BaseParameters) -> tuple[JointSeries, JointSeries]:

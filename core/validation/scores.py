@@ -9,8 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import BaseParameters, Indices
+from ..regressor.block import Block
 from ..regressor.factor import Factor
-from ..regressor.observe import Block, Observation
+from ..regressor.observe import Observation
 from ..robot.joint_units import prismatic_joints
 
 QUALITIES = (("good", 10.0), ("fair", 25.0), ("poor", 50.0), ("failed", np.inf))
