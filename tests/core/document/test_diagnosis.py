@@ -76,8 +76,8 @@ def test_the_gain_is_told_per_joint_on_held_out_data_in_torque_and_in_motion(doc
     assert abs(first["improvement_percent"]) < 5.0
     before, after = (diagnosis[side]["validation"][1]["rms_residual"] for side in ("before", "after"))
     # the gain is that of all rows, the errors are those of the moving ones
-        assert before == pytest.approx(second["rms_residual_before"], rel=0.05)
-        assert after == pytest.approx(second["rms_residual_after"], rel=0.15)
+    assert before == pytest.approx(second["rms_residual_before"], rel=0.05)
+    assert after == pytest.approx(second["rms_residual_after"], rel=0.15)
     simulation = diagnosis["simulation"]
     assert simulation["improvement_total_percent"][1] > 0.0
     assert np.shape(simulation["before"]["position_rms"]) == (len(simulation["before"]["horizons_s"]), 2)
