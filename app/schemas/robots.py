@@ -109,6 +109,9 @@ class FixedFrame(Strict):
     translation: Annotated[Triple, about("origin in the link's frame, m")]
 
 
+Shape = Annotated[list[float], Field(min_length=4, max_length=4)]
+
+
 class RobotDescription(Strict):
     """A robot: joints, gravity in the base frame, couplings, and the prior of its bodies."""
 
@@ -123,6 +126,10 @@ class RobotDescription(Strict):
     prior: Annotated[list[LinkPrior] | None, about("one entry per joint")] = None
     frames: Annotated[
         list[FixedFrame] | None, Field(max_length=200, description="named frames: flange, tool0")
+    ] = None
+    shapes: Annotated[
+        list[Shape | None] | None,
+        about("per joint x, y, z, radius (m) of a ball that holds the link, in its frame; null: not known"),
     ] = None
 
 

@@ -18,6 +18,7 @@ from .model import (
     FRICTION_KINDS,
     INERTIAL_SYMBOLS,
     INERTIAL_UNITS,
+    Ball,
     Coupling,
     Joint,
     JointKind,
@@ -42,6 +43,7 @@ ROBOT_FIELDS = {
     "couplings": "a list of motors whose angle is a weighted sum of joint positions",
     "prior": "null, or one entry per joint with the inertial parameters of a prior",
     "frames": "null, or a list of named frames fixed to links, such as the flange",
+    "shapes": "null, or per joint null or four numbers x, y, z, radius in m: a ball that holds the link",
 }
 JOINT_FIELDS = {
     "name": "a text (default joint_<number>)",
@@ -94,6 +96,7 @@ FIXED_FRAME_FIELDS = {
     "translation": "three numbers in m: this frame's origin in the link's frame",
 }
 MOST_FRAMES = 200
+SHAPE_FIELD = {"shape": "four numbers x, y, z, radius in m"}
 SYMBOL_FIELDS = {symbol: f"a number in {unit}" for symbol, unit in INERTIAL_UNITS.items()}
 
 
@@ -135,6 +138,7 @@ def robot_from_description(description: object) -> RobotModel:
         prior=_prior(top, len(links)),
         remarks=tuple(angle_remarks(_written_angles(rows))),
         frames=_frames(top, len(links)),
+        shapes=_shapes(top, len(links)),
     )
 
 
@@ -270,6 +274,23 @@ def _frames(top: Fields, links: int) -> tuple[NamedFrame, ...]:
         link = entry.integer("link", (1, links))
         found.append(NamedFrame(name, link, _rotation(entry), entry.numbers("translation", 3)))
     return tuple(found)
+
+
+def _shapes(top: Fields, links: int) -> tuple[Ball | None, ...] | None:
+    if not top.has("shapes"):
+        return None
+    listed = top.items("shapes", least=links, most=links)
+    return tuple(_ball(top, value, number) for number, value in enumerate(listed, start=1))
+
+
+def _ball(top: Fields, value: object, number: int) -> Ball | None:
+    if value is None:
+        return None
+    row = RobotFields({"shape": value}, f"the shape of joint {number}", f"/shapes/{number - 1}", SHAPE_FIELD)
+    x, y, z, radius = map(float, row.numbers("shape", 4))
+    if radius < 0.0:
+        top.refuse("shapes", f"gives joint {number} a radius below zero")
+    return Ball((x, y, z), radius)
 
 
 def _body(value: object, number: int) -> LinkParameters:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import RobotError
 from .description import FRAMES, MODIFIED_DH
-from .model import INERTIAL_SYMBOLS, Joint, Link, NamedFrame, RobotModel
+from .model import INERTIAL_SYMBOLS, Ball, Joint, Link, NamedFrame, RobotModel
 
 
 def to_description(robot: RobotModel) -> dict[str, object]:
@@ -43,6 +43,8 @@ def to_description(robot: RobotModel) -> dict[str, object]:
     }
     if robot.frames:
         description["frames"] = [_named_frame(frame) for frame in robot.frames]
+    if robot.shapes is not None:
+        description["shapes"] = [_ball(shape) for shape in robot.shapes]
     return description
 
 
@@ -128,6 +130,10 @@ def _named_frame(frame: NamedFrame) -> dict[str, object]:
 
 def _body(body: np.ndarray) -> dict[str, object]:
     return {"standard": dict(zip(INERTIAL_SYMBOLS, _floats(body), strict=True))}
+
+
+def _ball(shape: Ball | None) -> list[float] | None:
+    return None if shape is None else [*shape.centre, shape.radius]
 
 
 def _floats(values: np.ndarray) -> list[float]:
