@@ -66,21 +66,24 @@ def _columns(rows: list[Document]) -> list[Column]:
 
 
 def save_corrected(document: Document, robot: str, part: FromUrdf, path: Path) -> None:
-    """Save the corrected description: in the URDF that was given, or as a new one.
+    """Save the corrected description, if there is one: in the URDF that was given, or as a new one.
 
     Raises
     ------
     OptionError
-        If there is nothing to correct, or a corrected body cannot be.
+        If no log could judge the description, or a corrected body cannot be.
     """
     from ....core.export.described import urdf_of_description, urdf_with_bodies
 
     corrected = document["corrected_robot"]
+    if corrected is None and document["judged"]:
+        note(f"nothing is contradicted, so the description stays and {path} is not written")
+        return
     if corrected is None:
         raise OptionError(
             "there is no corrected description to save",
-            evidence={"contradicted": 0, "judged": document["judged"]},
-            remedy="leave out --urdf, or give a log that contradicts an entry",
+            evidence={"judged": False},
+            remedy="leave out --urdf, or give a log that excites the arm",
         )
     text = Path(robot).read_bytes() if means_a_file(robot) else b""
     if text.lstrip().startswith(b"<"):

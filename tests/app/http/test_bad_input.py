@@ -401,7 +401,7 @@ def test_a_job_request_that_does_not_follow_the_contract_is_refused_at_the_spot(
 
 def test_an_unknown_kind_of_job_is_refused_with_the_known_ones(client):
     problem = client.post("/v1/jobs", json=GOOD_JOB | {"kind": "guess"}).json()
-    assert "'identify', 'diagnose' or 'check'" in problem["evidence"]["errors"][0]["message"]
+    assert "'identify', 'diagnose', 'check' or 'audit'" in problem["evidence"]["errors"][0]["message"]
 
 
 def test_a_robot_or_log_that_does_not_exist_is_named(client, log_id):
