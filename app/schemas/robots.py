@@ -100,6 +100,9 @@ class LinkPrior(Strict):
     ] = None
 
 
+Shape = Annotated[list[float], Field(min_length=4, max_length=4)]
+
+
 class RobotDescription(Strict):
     """A robot: joints, gravity in the base frame, couplings, and the prior of its bodies."""
 
@@ -112,6 +115,10 @@ class RobotDescription(Strict):
     )
     couplings: list[CouplingDescription] | None = None
     prior: Annotated[list[LinkPrior] | None, about("one entry per joint")] = None
+    shapes: Annotated[
+        list[Shape | None] | None,
+        about("per joint x, y, z, radius (m) of a ball that holds the link, in its frame; null: not known"),
+    ] = None
 
 
 class RobotSummary(Open):

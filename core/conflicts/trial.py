@@ -167,7 +167,7 @@ class Trials:
         rows = [max(len(torque), 1) for torque in equations.fitted]
         prior = default_prior(base.model, np.sqrt(equations.squares / rows))
         try:
-            solution = solve(Programme(base, system, prior, Bounds()), "clarabel")
+            solution = solve(Programme(base, system, prior, Bounds(plausible=False)), "clarabel")
         except SolverError:
             return None
         values = base.base_of(solution.standard)

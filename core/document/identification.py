@@ -145,6 +145,20 @@ def _feasibility(found: Identification) -> dict[str, object]:
         "margin": found.estimate_feasibility.margin,
         "ols_feasible": found.unconstrained_feasibility.feasible,
         "ols_margin": found.unconstrained_feasibility.margin,
+        "ols_plausible": found.unconstrained_plausible,
+        "sizes": [
+            {
+                "link": link,
+                "centre": extent.ball.centre,
+                "radius": extent.ball.radius,
+                "source": extent.source,
+            }
+            for link, extent in enumerate(found.extents, start=1)
+            if extent is not None
+        ],
+        "costly_sizes": [
+            {"link": costly.bound.link, "cost_ratio": costly.ratio} for costly in found.estimate.costly
+        ],
         "pseudo_inertia_min_eigenvalue": found.pseudo_inertia_eigenvalues,
         "active_constraints": found.active_constraints,
         "mass_matrix_min_eigenvalue": {

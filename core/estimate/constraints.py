@@ -55,6 +55,20 @@ class CentreEllipsoid:
 
 
 @dataclass(frozen=True)
+class LinkSize:
+    """Keep all of a link's mass in a ball, m, in the link's frame."""
+
+    link: int
+    centre: tuple[float, float, float]
+    radius: float
+
+    @property
+    def is_empty(self) -> bool:
+        """Tell whether no body fits in."""
+        return self.radius <= 0.0
+
+
+@dataclass(frozen=True)
 class Bounds:
     """Ask for a plausible robot."""
 
@@ -64,13 +78,20 @@ class Bounds:
     """Smallest and largest mass of all links together, kg."""
     centres: tuple[CentreBox | CentreEllipsoid, ...] = ()
     """Where mass centres may lie."""
+    sizes: tuple[LinkSize, ...] = ()
+    """Where all of a link's mass lies, as declared."""
+    plausible: bool = True
+    """Whether bodies that are not declared keep to the size that the robot's description lets one assume, and
+    all bodies to the density of metals."""
+    exempt: tuple[int, ...] = ()
+    """Links whose size and density are not asked for, to see what their bounds cost."""
     margin: float = DEFAULT_MARGIN
     """Least eigenvalue of every scaled pseudo-inertia; keeps the mass matrix off singularity."""
 
     def __post_init__(self) -> None:
         """Refuse empty ranges."""
         masses_fit = self._allows_masses() and 0.0 <= self.margin <= LARGEST_MARGIN
-        if not masses_fit or any(region.is_empty for region in self.centres):
+        if not masses_fit or any(region.is_empty for region in (*self.centres, *self.sizes)):
             raise OptionError(
                 "the bounds leave no robot",
                 evidence={
@@ -79,7 +100,7 @@ class Bounds:
                     "margin": self.margin,
                 },
                 remedy="give lower bounds from 0 to the upper ones, a total mass with room for the least "
-                "masses of the links, positive semi-axes, a margin from 0 to 0.1",
+                "masses of the links, positive semi-axes and radii, a margin from 0 to 0.1",
             )
 
     def _allows_masses(self) -> bool:
@@ -132,7 +153,8 @@ def check_links(bounds: Bounds, model: DynamicModel) -> None:
         If a bound names such a link, or any link of a model without rigid bodies.
     """
     links = len(link_columns(model))
-    named = [link for link, _, _ in bounds.mass] + [region.link for region in bounds.centres]
+    regions = (*bounds.centres, *bounds.sizes)
+    named = [link for link, _, _ in bounds.mass] + [region.link for region in regions]
     unknown = sorted({link for link in named if not 1 <= link <= links})
     if unknown or (bounds.total_mass is not None and not links):
         raise OptionError(

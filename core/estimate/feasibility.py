@@ -16,7 +16,8 @@ from ..dynamics.model import DynamicModel
 from ..reduction.base import BaseModel
 from ..robot.inertia import pseudo_inertia
 from .constraints import Bounds, Prior, congruence, link_columns, lower_bounds
-from .with_clarabel import SVEC_IDENTITY, svec_rows
+from .plausibility import link_bounds
+from .with_clarabel import AUXILIARY, SVEC_IDENTITY, Cones, add_links
 
 _CAP = 1.0
 
@@ -33,38 +34,48 @@ class Feasibility:
     margin: float | None
 
 
-def feasibility(base: BaseModel, values: BaseParameters, prior: Prior) -> Feasibility:
-    """Maximise the margin t over all standard parameters that group into the given base parameters."""
+def feasibility(
+    base: BaseModel, values: BaseParameters, prior: Prior, bounds: Bounds | None = None
+) -> Feasibility:
+    """Maximise the margin t over all standard parameters that group into the given base parameters.
+
+    Parameters
+    ----------
+    bounds
+        Sizes and densities to keep to; None where consistent bodies of any size will do.
+    """
     model, scale = base.model, prior.scale
     size = len(scale)
+    links = link_bounds(model, bounds or Bounds(plausible=False), prior)
     own = np.linalg.norm(base.grouping * scale, axis=1)
-    equal = np.hstack([base.grouping * scale / own[:, None], np.zeros((len(own), 1))])
-    rows, right, cones = [equal], [values / own], [clarabel.ZeroConeT(len(own))]
-    for columns in link_columns(model):
-        link = np.zeros((10, size + 1))
-        link[:, list(columns)] = -svec_rows(congruence(prior, columns)) * scale[list(columns)]
+    cones = Cones(size + AUXILIARY * len(links) + 1)
+    cones.add(clarabel.ZeroConeT(len(own)), base.grouping * scale / own[:, None], values / own)
+    add_links(cones, prior, links, size)
+    for link in cones.links:
         link[:, -1] = SVEC_IDENTITY
-        rows.append(link)
-        right.append(np.zeros(10))
-        cones.append(clarabel.PSDTriangleConeT(4))
     lower = lower_bounds(model)
     bounded = np.flatnonzero(np.isfinite(lower))
-    signs = np.hstack([-np.eye(size)[bounded], np.ones((len(bounded), 1))])
-    cap = np.append(np.zeros(size), 1.0)[None, :]
-    rows += [signs, cap]
-    right += [-lower[bounded] / scale[bounded], np.array([_CAP])]
-    cones.append(clarabel.NonnegativeConeT(len(bounded) + 1))
-    return _maximise(rows, right, cones, size)
+    signs = np.zeros((len(bounded) + 1, cones.width))
+    signs[:-1, :size], signs[:, -1] = -np.eye(size)[bounded], 1.0
+    right = np.append(-lower[bounded] / scale[bounded], _CAP)
+    cones.add(clarabel.NonnegativeConeT(len(right)), signs, right)
+    return _maximise(cones, size)
 
 
-def _maximise(rows: list[np.ndarray], right: list[np.ndarray], cones: list[object], size: int) -> Feasibility:
+def _maximise(cones: Cones, size: int) -> Feasibility:
     settings = clarabel.DefaultSettings()
     settings.verbose = False
     settings.max_threads = 1
-    linear = np.append(np.zeros(size), -1.0)
-    quadratic = sparse.diags(np.append(np.full(size, 1e-9), 0.0), format="csc")
+    linear = np.append(np.zeros(cones.width - 1), -1.0)
+    quadratic = np.zeros(cones.width)
+    quadratic[:size] = 1e-9
     answer = clarabel.DefaultSolver(
-        quadratic, linear, sparse.csc_matrix(np.vstack(rows)), np.concatenate(right), cones, settings
+        sparse.diags(quadratic, format="csc"),
+        linear,
+        sparse.csc_matrix(np.vstack(cones.rows)),
+        np.concatenate(cones.right),
+        cones.kinds,
+        settings,
     ).solve()
     if str(answer.status) not in ("Solved", "AlmostSolved"):
         return Feasibility(None, None)
@@ -82,6 +93,8 @@ def active_constraints(
         body = pseudo_inertia(standard[list(columns)]) * np.outer(weights, weights)
         if np.linalg.eigvalsh(body)[0] < 3.0 * bounds.margin + 1e-7:
             held.append(f"pseudo_inertia_{number}")
+    for link in link_bounds(model, bounds, prior):
+        held += link.exhausted(standard)
     lower = lower_bounds(model)
     at_bound = (standard - lower) / prior.scale < 1e-5
     return (*held, *(model.parameters[column].name for column in np.flatnonzero(at_bound)))

@@ -2,8 +2,8 @@
 
     minimise    ||R G phi - z||^2 / (2 n)  +  pull ||(phi - prior) / scale||^2 / (2 n)
                 +  entropy / n  sum_k d(J_k, J_k of the prior)
-    subject to  D J_k(phi) D >= margin E  for every link k,
-                phi_i >= lower_i,  bounds on masses and mass centres
+    subject to  D (J_k(phi) - t_k diag(1, 1, 1, 0)) D >= margin E,  t_k >= k m_k^(5/3)  for every link k,
+                phi_i >= lower_i,  bounds on masses, mass centres, sizes and densities
 
 phi are the standard parameters, G groups them into base parameters, R and z are the weighted factor of the
 log with n rows. The size does not depend on the log's length. Sources: Sousa & Cortesao 2014; Wensing, Kim &
@@ -72,8 +72,8 @@ class Solution:
 _REMEDY = "ask for the other solver (option solver), give a prior, or raise the pull towards the prior"
 _MEANINGS = {
     "infeasible": (
-        "no robot satisfies the bounds on masses and mass centres",
-        "widen the bounds or lower the margin, and check that masses are in kg and lengths in m",
+        "no robot satisfies the bounds on masses, mass centres and sizes",
+        "widen the bounds, lower the margin or declare bounds.size; check that units are kg and m",
     ),
     "unbounded": ("the optimum lies at infinity", "use a pull towards a prior greater than zero"),
     "inaccurate": ("the solver stopped before it reached its accuracy", _REMEDY),

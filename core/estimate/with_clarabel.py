@@ -16,13 +16,16 @@ from scipy import sparse
 
 from ..arrays import Matrix, Vector
 from ..robot.inertia import PSEUDO_INERTIA_BASIS
-from .constraints import CentreBox, congruence, link_columns, lower_bounds
+from .constraints import CentreBox, Prior, congruence, link_columns, lower_bounds
+from .plausibility import LinkBound, density_unit, link_bounds
 from .programme import Programme, Solution, refusal
 
 _UPPER = np.triu_indices(4)
 _BY_COLUMN = np.lexsort((_UPPER[0], _UPPER[1]))
 _ROW, _COLUMN = _UPPER[0][_BY_COLUMN], _UPPER[1][_BY_COLUMN]
 _ROOT = np.where(_ROW == _COLUMN, 1.0, np.sqrt(2.0))
+AUXILIARY = 5
+"""Variables by which the density bound of one link is stated."""
 SVEC_IDENTITY = np.where(_ROW == _COLUMN, 1.0, 0.0)
 """The 4x4 identity in the solver's triangle order."""
 _FINE, _COARSE = 1e-9, 1e-7
@@ -49,15 +52,19 @@ _KINDS = {
 
 
 @dataclass
-class _Cones:
+class Cones:
     """Collect rows of A x + s = b, cone by cone."""
 
     width: int
+    """Number of variables."""
     rows: list[Matrix] = field(default_factory=list)
     right: list[Vector] = field(default_factory=list)
     kinds: list[object] = field(default_factory=list)
+    links: list[Matrix] = field(default_factory=list)
+    """The rows of the links' pseudo-inertias."""
 
     def add(self, kind: object, rows: Matrix, right: Vector) -> None:
+        """Add a cone; variables that its rows do not reach have no share in it."""
         wide = np.zeros((len(rows), self.width))
         wide[:, : rows.shape[1]] = rows
         self.rows.append(wide)
@@ -75,16 +82,19 @@ def solve_with_clarabel(programme: Programme) -> Solution:
     """
     misfit, target = programme.scaled_rows
     equations, parameters = misfit.shape
-    cones = _Cones(parameters + equations)
+    links = link_bounds(programme.base.model, programme.bounds, programme.prior)
+    dense = AUXILIARY * len(links)
+    cones = Cones(parameters + equations + dense)
     cones.add(clarabel.ZeroConeT(equations), np.hstack([misfit, -np.eye(equations)]), target)
-    _add_links(cones, programme)
+    add_links(cones, programme.prior, links, parameters + equations, programme.bounds.margin)
     _add_signs(cones, programme)
     _add_masses(cones, programme)
     _add_centres(cones, programme)
     pull = np.full(parameters, programme.scaled_pull)
-    quadratic = np.concatenate([pull, np.ones(equations)])
-    linear = np.concatenate([-pull * programme.prior.centre / programme.prior.scale, np.zeros(equations)])
-    norms = np.append(np.sqrt((misfit**2).sum(axis=0) + pull), np.ones(equations))
+    quadratic = np.concatenate([pull, np.ones(equations), np.zeros(dense)])
+    pulled = -pull * programme.prior.centre / programme.prior.scale
+    linear = np.concatenate([pulled, np.zeros(equations + dense)])
+    norms = np.append(np.sqrt((misfit**2).sum(axis=0) + pull), np.ones(equations + dense))
     answer, unit = _first_solved(cones, quadratic, linear, norms)
     status = str(answer.status)
     if status != "Solved":
@@ -95,7 +105,7 @@ def solve_with_clarabel(programme: Programme) -> Solution:
     return Solution(standard, "optimal", int(answer.iterations), "clarabel", programme.bounds.margin)
 
 
-def _first_solved(cones: _Cones, quadratic: Vector, linear: Vector, norms: Vector) -> tuple[Any, Vector]:
+def _first_solved(cones: Cones, quadratic: Vector, linear: Vector, norms: Vector) -> tuple[Any, Vector]:
     """Try one statement after the other; give the last answer and the units of its variables."""
     rows, right = np.vstack(cones.rows), np.concatenate(cones.right)
 
@@ -127,12 +137,46 @@ def _settings(tolerance: float, step: float) -> object:
     return settings
 
 
-def _add_links(cones: _Cones, programme: Programme) -> None:
-    scale = programme.prior.scale
-    for columns in link_columns(programme.base.model):
-        rows = np.zeros((10, len(scale)))
-        rows[:, list(columns)] = -svec_rows(congruence(programme.prior, columns)) * scale[list(columns)]
-        cones.add(clarabel.PSDTriangleConeT(4), rows, -programme.bounds.margin * SVEC_IDENTITY)
+def add_links(
+    cones: Cones, prior: Prior, links: tuple[LinkBound, ...], first: int, margin: float = 0.0
+) -> None:
+    """Add what is asked of the bodies; the variables of the density bounds stand from `first` on."""
+    for place, link in enumerate(links):
+        columns, weights = list(link.columns), congruence(prior, link.columns)
+        rows = np.zeros((10, cones.width))
+        rows[:, columns] = -svec_rows(weights) * prior.scale[columns]
+        if link.is_dense:
+            rows[:, first + AUXILIARY * place] = density_column(prior, link.columns)
+            _add_power(cones, first + AUXILIARY * place, columns[9])
+        cones.add(clarabel.PSDTriangleConeT(4), rows, -margin * SVEC_IDENTITY)
+        cones.links.append(cones.rows[-1])
+        if link.extent is not None:
+            size = np.zeros((1, cones.width))
+            size[0, columns] = -link.row * prior.scale[columns] / prior.scale[columns[0]]
+            cones.add(clarabel.NonnegativeConeT(1), size, np.zeros(1))
+
+
+def _add_power(cones: Cones, first: int, mass: int) -> None:
+    """Add u >= m^(5/3), u the variable `first`: m is at most the geometric mean of u u u 1 1 m m m.
+
+    It is taken pair by pair, with a^2 <= u, b^2 <= m, c^2 <= u a, d^2 <= b m and m^2 <= c d.
+    """
+    u, a, b, c, d = range(first, first + AUXILIARY)
+    for root, left, right in ((a, u, None), (b, mass, None), (c, u, a), (d, b, mass), (mass, c, d)):
+        rows, constant = np.zeros((3, cones.width)), np.zeros(3)
+        rows[0, left] = rows[2, left] = -1.0
+        rows[1, root] = -2.0
+        if right is None:
+            constant[[0, 2]] = 1.0, -1.0
+        else:
+            rows[0, right], rows[2, right] = -1.0, 1.0
+        cones.add(clarabel.SecondOrderConeT(3), rows, constant)
+
+
+def density_column(prior: Prior, columns: tuple[int, ...]) -> Vector:
+    """Write D diag(1, 1, 1, 0) D in the solver's triangle order, in the unit of the density bound."""
+    weights, spatial = congruence(prior, columns), np.where((_ROW == _COLUMN) & (_ROW < 3), 1.0, 0.0)
+    return np.asarray(density_unit(prior, columns) * weights[_ROW] ** 2 * spatial)
 
 
 def svec_rows(weights: Vector) -> Matrix:
@@ -140,7 +184,7 @@ def svec_rows(weights: Vector) -> Matrix:
     return np.asarray((PSEUDO_INERTIA_BASIS[:, _ROW, _COLUMN] * (weights[_ROW] * weights[_COLUMN] * _ROOT)).T)
 
 
-def _add_signs(cones: _Cones, programme: Programme) -> None:
+def _add_signs(cones: Cones, programme: Programme) -> None:
     lower = lower_bounds(programme.base.model)
     bounded = np.flatnonzero(np.isfinite(lower))
     if len(bounded):
@@ -150,7 +194,7 @@ def _add_signs(cones: _Cones, programme: Programme) -> None:
         )
 
 
-def _add_masses(cones: _Cones, programme: Programme) -> None:
+def _add_masses(cones: Cones, programme: Programme) -> None:
     scale, links = programme.prior.scale, link_columns(programme.base.model)
     ranges = [([links[link - 1][9]], low, high) for link, low, high in programme.bounds.mass]
     if programme.bounds.total_mass is not None:
@@ -164,7 +208,7 @@ def _add_masses(cones: _Cones, programme: Programme) -> None:
         cones.add(clarabel.NonnegativeConeT(int(finite.sum())), rows[finite], right[finite])
 
 
-def _add_centres(cones: _Cones, programme: Programme) -> None:
+def _add_centres(cones: Cones, programme: Programme) -> None:
     scale, links = programme.prior.scale, link_columns(programme.base.model)
     for region in programme.bounds.centres:
         first, mass = np.array(links[region.link - 1][6:9]), links[region.link - 1][9]

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..robot.inertia import PSEUDO_INERTIA_BASIS, pseudo_inertia
 from .constraints import CentreBox, congruence, link_columns, lower_bounds
+from .plausibility import LinkBound, density_unit, link_bounds
 from .programme import Programme, Solution, refusal
 
 _KINDS = {
@@ -59,11 +60,8 @@ def _constraints(programme: Programme, phi: cvxpy.Variable) -> list[cvxpy.Constr
     constraints: list[cvxpy.Constraint] = (
         [phi[signed] >= lower[signed] / scale[signed]] if len(signed) else []
     )
-    for columns in links:
-        weights = np.diag(congruence(programme.prior, columns))
-        constraints.append(
-            weights @ _pseudo_inertia(programme, phi, columns) @ weights >> bounds.margin * np.eye(4)
-        )
+    for asked in link_bounds(model, bounds, programme.prior):
+        constraints += _of_body(programme, phi, asked)
     masses = [scale[columns[9]] * phi[columns[9]] for columns in links]
     for link, low, high in bounds.mass:
         constraints += [masses[link - 1] >= low, masses[link - 1] <= high]
@@ -77,6 +75,21 @@ def _constraints(programme: Programme, phi: cvxpy.Variable) -> list[cvxpy.Constr
         else:
             away = (moment - np.array(region.centre) * mass) / np.array(region.semi_axes)
             constraints.append(cvxpy.norm(away) <= mass)
+    return constraints
+
+
+def _of_body(programme: Programme, phi: cvxpy.Variable, link: LinkBound) -> list[cvxpy.Constraint]:
+    """State that a body is consistent, lies in its link, and is not denser than metal."""
+    scale, columns = programme.prior.scale, list(link.columns)
+    weights = np.diag(congruence(programme.prior, link.columns))
+    body, constraints = _pseudo_inertia(programme, phi, link.columns), list[cvxpy.Constraint]()
+    if link.is_dense:
+        least = cvxpy.Variable()
+        constraints.append(cvxpy.power(phi[columns[9]], 5 / 3) <= least)
+        body = body - density_unit(programme.prior, link.columns) * least * np.diag([1.0, 1.0, 1.0, 0.0])
+    constraints.append(weights @ body @ weights >> programme.bounds.margin * np.eye(4))
+    if link.extent is not None:
+        constraints.append((link.row * scale[columns] / scale[columns[0]]) @ phi[columns] >= 0.0)
     return constraints
 
 

@@ -7,8 +7,10 @@ the consistency constraint and in the residual.
 import numpy as np
 
 from ..arrays import JointVector, Mask
+from ..estimate.plausibility import DENSEST
 from ..log.model import Defect
 from ..regressor.observe import Block
+from ..robot.extent import Extent
 from .result import Identification
 
 HIGH_COST = 1.25
@@ -16,6 +18,11 @@ HIGH_COST = 1.25
 POOR_PREDICTION_PERCENT = 50.0
 HELD_OUT_OVER_FITTED = 2.0
 ONE_DIRECTION = "one_direction"
+SOURCES = {
+    "declared": "as declared",
+    "shapes": "from the shapes of its description",
+    "axes": "assumed from the distances between axes",
+}
 DOUBTFUL = ("implausible_unit", "velocity_mismatch", ONE_DIRECTION)
 """Defects of a log by which values are wrong, or not known, however well the model fits."""
 CERTAIN = 3.0
@@ -58,6 +65,27 @@ def _cost(found: Identification) -> list[str]:
         "in the sign of a torque, in units or in gravity, or the torque was measured elsewhere than modelled"
     )
     return [sentence]
+
+
+def _sizes(found: Identification) -> list[str]:
+    """Say which links the log gives another size than they are assumed to have."""
+    sentences = []
+    for costly in found.estimate.costly:
+        link, extent = costly.bound.link, costly.bound.extent
+        size = "" if extent is None else f", all within {_ball(extent)} ({SOURCES[extent.source]})"
+        kept = extent is not None and extent.source == "declared"
+        done = "kept all the same" if kept else "let go: its body is larger or denser"
+        sentences.append(
+            f"A plausible body of link {link} (no denser than {DENSEST:g} kg/m3{size}) raises the squared "
+            f"error by a factor of {costly.ratio:.3g}. This bound was {done}; give the link's true size "
+            "(option bounds.size), or check log and description"
+        )
+    return sentences
+
+
+def _ball(extent: Extent) -> str:
+    centre = ", ".join(f"{value:.3g}" for value in extent.ball.centre)
+    return f"{extent.ball.radius:.3g} m of ({centre}) m"
 
 
 def _joint_cost(found: Identification) -> JointVector:

@@ -8,6 +8,7 @@ from ..estimate.constraints import default_prior
 from ..estimate.estimate import Estimate, estimate
 from ..estimate.feasibility import active_constraints, feasibility
 from ..estimate.methods.method import Step
+from ..estimate.plausibility import link_bounds
 from ..estimate.problem import ObservedProblem, Problem
 from ..estimate.system import System
 from ..log.model import JointLog
@@ -92,6 +93,10 @@ def judge(
         unconstrained_feasibility=feasibility(base, answer.unconstrained, prior),
         estimate_feasibility=feasibility(base, base.base_of(answer.standard), prior),
         pseudo_inertia_eigenvalues=pseudo_inertia_eigenvalues(model, answer.standard),
+        unconstrained_plausible=feasibility(
+            base, answer.unconstrained, prior, options.estimate.bounds
+        ).feasible,
+        extents=tuple(link.extent for link in link_bounds(model, options.estimate.bounds, prior)),
         active_constraints=active_constraints(model, answer.standard, prior, options.estimate.bounds),
         trajectory=check_mass_matrix(model, answer.standard, observation.positions),
         workspace=check_mass_matrix(model, answer.standard, workspace(model.robot)),

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..dynamics.model import STANDARD_TERMS
 from ..errors import OptionError
-from ..estimate.constraints import Bounds, CentreBox, CentreEllipsoid
+from ..estimate.constraints import Bounds, CentreBox, CentreEllipsoid, LinkSize
 from ..estimate.options import EstimateOptions
 from ..fields import Fields, scalar_meanings
 from ..signals.recipe import FilterOptions
@@ -85,6 +85,8 @@ BOUND_FIELDS = {
     "margin": "a finite number",
     "mass": "a list of rows of a link's number, its least and its largest mass in kg",
     "total_mass": "the least and the largest mass of all links together, kg",
+    "plausible": "true or false",
+    "size": "a list of rows of a link's number, a centre and a radius, m: 5 numbers each",
     "centre_box": "a list of rows of a link's number and two corners, m: 7 numbers each",
     "centre_ellipsoid": "a list of rows of a link's number, a centre and three semi-axes, m: 7 numbers each",
 }
@@ -177,8 +179,11 @@ def _bounds(fields: Fields) -> Bounds:
         for name, kind in (("centre_box", CentreBox), ("centre_ellipsoid", CentreEllipsoid))
         for link, a, b, c, d, e, f in _rows_of_links(fields, name, 7)
     )
+    sizes = tuple(
+        LinkSize(int(link), (x, y, z), radius) for link, x, y, z, radius in _rows_of_links(fields, "size", 5)
+    )
     total = tuple(fields.numbers("total_mass", 2).tolist()) if fields.has("total_mass") else None
-    return fields.record(Bounds(), mass=mass, total_mass=total, centres=centres)
+    return fields.record(Bounds(), mass=mass, total_mass=total, centres=centres, sizes=sizes)
 
 
 def _rows_of_links(fields: Fields, name: str, width: int) -> list[list[float]]:

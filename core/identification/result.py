@@ -10,6 +10,7 @@ from ..precision.essential import Essential
 from ..precision.inference import Inference
 from ..reduction.base import BaseModel
 from ..regressor.observe import Observation
+from ..robot.extent import Extent
 from ..signals.condition import Motion
 from ..validation.excitation import ExcitationScore
 from ..validation.mass_matrix import MassMatrixCheck
@@ -35,6 +36,8 @@ class Identification:
     excitation: ExcitationScore
     unconstrained_feasibility: Feasibility
     estimate_feasibility: Feasibility
+    unconstrained_plausible: bool | None
+    extents: tuple[Extent | None, ...]
     pseudo_inertia_eigenvalues: tuple[float, ...]
     active_constraints: tuple[str, ...]
     trajectory: MassMatrixCheck

@@ -18,6 +18,7 @@ from .model import (
     FRICTION_KINDS,
     INERTIAL_SYMBOLS,
     INERTIAL_UNITS,
+    Ball,
     Coupling,
     Joint,
     JointKind,
@@ -40,6 +41,7 @@ ROBOT_FIELDS = {
     "gravity": "the acceleration of gravity in the base frame, m/s2, by default [0, 0, -9.81]",
     "couplings": "a list of motors whose angle is a weighted sum of joint positions",
     "prior": "null, or one entry per joint with the inertial parameters of a prior",
+    "shapes": "null, or per joint null or four numbers x, y, z, radius in m: a ball that holds the link",
 }
 JOINT_FIELDS = {
     "name": "a text (default joint_<number>)",
@@ -85,6 +87,7 @@ PRIOR_FIELDS = {
     "center_of_mass": "three numbers in m in the link's frame",
     "inertia_at_com": "six numbers XX XY XZ YY YZ ZZ in kg m2 about the mass centre, along the frame's axes",
 }
+SHAPE_FIELD = {"shape": "four numbers x, y, z, radius in m"}
 SYMBOL_FIELDS = {symbol: f"a number in {unit}" for symbol, unit in INERTIAL_UNITS.items()}
 
 
@@ -125,6 +128,7 @@ def robot_from_description(description: object) -> RobotModel:
         couplings=_couplings(top, len(joints)),
         prior=_prior(top, len(links)),
         remarks=tuple(angle_remarks(_written_angles(rows))),
+        shapes=_shapes(top, len(links)),
     )
 
 
@@ -248,6 +252,23 @@ def _prior(top: Fields, links: int) -> LinkTable | None:
         return None
     bodies = top.items("prior", least=links, most=links)
     return np.array([_body(value, number) for number, value in enumerate(bodies, start=1)])
+
+
+def _shapes(top: Fields, links: int) -> tuple[Ball | None, ...] | None:
+    if not top.has("shapes"):
+        return None
+    listed = top.items("shapes", least=links, most=links)
+    return tuple(_ball(top, value, number) for number, value in enumerate(listed, start=1))
+
+
+def _ball(top: Fields, value: object, number: int) -> Ball | None:
+    if value is None:
+        return None
+    row = RobotFields({"shape": value}, f"the shape of joint {number}", f"/shapes/{number - 1}", SHAPE_FIELD)
+    x, y, z, radius = map(float, row.numbers("shape", 4))
+    if radius < 0.0:
+        top.refuse("shapes", f"gives joint {number} a radius below zero")
+    return Ball((x, y, z), radius)
 
 
 def _body(value: object, number: int) -> LinkParameters:

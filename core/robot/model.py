@@ -5,6 +5,7 @@ own z axis. Joint coordinates and links are kept apart, because a mimic joint mo
 coordinate of its own. Every scalar of its dynamic model has a name and a unit.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
@@ -67,6 +68,34 @@ class Link:
 
 
 @dataclass(frozen=True)
+class Ball:
+    """Hold a ball in a link's frame, m."""
+
+    centre: tuple[float, float, float]
+    radius: float
+
+    @staticmethod
+    def around(points: Sequence[Vector3]) -> "Ball":
+        """Give the ball about the middle of the points' bounding box that holds them all.
+
+        Examples
+        --------
+        >>> Ball.around([np.zeros(3), np.array([0.4, 0.0, 0.0])])
+        Ball(centre=(0.2, 0.0, 0.0), radius=0.2)
+        """
+        return Ball.joined([Ball((float(x), float(y), float(z)), 0.0) for x, y, z in points])
+
+    @staticmethod
+    def joined(balls: "Sequence[Ball]") -> "Ball":
+        """Give a ball that holds several."""
+        centres, radii = np.array([ball.centre for ball in balls]), np.array([ball.radius for ball in balls])
+        low, high = (centres - radii[:, None]).min(axis=0), (centres + radii[:, None]).max(axis=0)
+        middle = 0.5 * (low + high)
+        x, y, z = map(float, middle)
+        return Ball((x, y, z), float((np.linalg.norm(centres - middle, axis=1) + radii).max()))
+
+
+@dataclass(frozen=True)
 class Coupling:
     """Describe a motor whose angle is a weighted sum of joint positions (Staubli TX40, motor 6: q5 + q6).
 
@@ -90,6 +119,8 @@ class RobotModel:
         Gravitational acceleration in the base frame, m/s2, pointing down.
     prior
         Ten inertial parameters per link, in each link's frame; None without a prior.
+    shapes
+        Per link, a ball that holds its shapes, in its frame; None where they are not known.
     remarks
         What its reader took otherwise than it is written, left out, or found odd, in sentences.
     """
@@ -101,6 +132,7 @@ class RobotModel:
     couplings: tuple[Coupling, ...] = ()
     prior: LinkTable | None = field(default=None)
     remarks: tuple[str, ...] = ()
+    shapes: tuple[Ball | None, ...] | None = None
 
     def __post_init__(self) -> None:
         """Refuse trees that are no trees and vectors of the wrong length."""

@@ -9,6 +9,7 @@ from base to tip. Which joints that are, `core.robot.urdf_part` decides.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import cast
+from xml.etree.ElementTree import Element
 
 import numpy as np
 
@@ -18,11 +19,12 @@ from ..fields import LARGEST_NUMBER
 from .description import LEVEL_GRAVITY, MOST_JOINTS
 from .frames import rotation_to
 from .inertia import transform_body
-from .model import Joint, JointKind, Link, RobotModel
+from .model import Ball, Joint, JointKind, Link, RobotModel
 from .urdf_document import MOVING_KINDS, UrdfDocument, UrdfJoint, read_urdf_document
 from .urdf_elements import child
 from .urdf_part import Part, choose_part
 from .urdf_remarks import urdf_remarks
+from .urdf_shapes import Placement, link_ball
 
 NAMELESS = "robot"
 """What a robot is called whose name is empty."""
@@ -114,6 +116,7 @@ def _assemble(document: UrdfDocument, part: Part, gravity: Vector3) -> RobotMode
     links: list[Link] = []
     bodies: list[LinkParameters] = []
     placed: dict[str, _Placed] = {}
+    welded: list[list[tuple[Element, Placement]]] = []
     for joint, moves in part:
         parent = placed.get(joint.parent, _Placed(0, np.eye(3), np.zeros(3)))
         turned, shifted = joint.placement
@@ -137,8 +140,12 @@ def _assemble(document: UrdfDocument, part: Part, gravity: Vector3) -> RobotMode
                 )
             )
             bodies.append(np.zeros(10))
+            welded.append([])
             frame = _Placed(len(links), turn.T, np.zeros(3))
         placed[joint.child] = frame
+        if frame.number:
+            element = document.links[joint.child]
+            welded[frame.number - 1].append((element, (frame.rotation, frame.translation)))
         body = document.body(joint.child) if frame.number else None
         if body is not None:
             bodies[frame.number - 1] += transform_body(body, frame.rotation, frame.translation)
@@ -149,7 +156,14 @@ def _assemble(document: UrdfDocument, part: Part, gravity: Vector3) -> RobotMode
         gravity=gravity,
         prior=_prior(document, part, bodies),
         remarks=urdf_remarks(document, part),
+        shapes=_balls(welded),
     )
+
+
+def _balls(welded: list[list[tuple[Element, Placement]]]) -> tuple[Ball | None, ...] | None:
+    """Give a ball for each moving link; None where no shape of any link is read."""
+    balls = tuple(map(link_ball, welded))
+    return balls if any(ball is not None for ball in balls) else None
 
 
 def _prior(document: UrdfDocument, part: Part, bodies: list[LinkParameters]) -> LinkTable | None:

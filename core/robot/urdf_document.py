@@ -58,7 +58,7 @@ class UrdfJoint:
     @cached_property
     def placement(self) -> tuple[Rotation, Vector3]:
         """Give the child's pose on its parent at zero coordinate: rotation and translation (m)."""
-        return _origin(self.element, self.where)
+        return pose(self.element, self.where)
 
     @cached_property
     def axis(self) -> Vector3:
@@ -148,7 +148,7 @@ class UrdfDocument:
         if inertial is None:
             return None
         where = f"the inertial of link {link}"
-        rotation, centre = _origin(inertial, where)
+        rotation, centre = pose(inertial, where)
         mass = number(required(inertial, "mass", where), "value", where)
         table = required(inertial, "inertia", where)
         xx, xy, xz, yy, yz, zz = (
@@ -204,7 +204,7 @@ def _angles(element: Element, where: str) -> Vector3:
     return numbers(child(element, "origin"), "rpy", where, (0.0, 0.0, 0.0))
 
 
-def _origin(element: Element, where: str) -> tuple[Rotation, Vector3]:
+def pose(element: Element, where: str) -> tuple[Rotation, Vector3]:
     """Read a pose; its right angles are taken for right angles however many digits they are written with."""
     roll, pitch, yaw = (meant_angle(float(angle)) for angle in _angles(element, where))
     return rotation_rpy(roll, pitch, yaw), numbers(child(element, "origin"), "xyz", where, (0.0, 0.0, 0.0))

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import RobotError
 from .description import FRAMES, MODIFIED_DH
-from .model import INERTIAL_SYMBOLS, Joint, Link, RobotModel
+from .model import INERTIAL_SYMBOLS, Ball, Joint, Link, RobotModel
 
 
 def to_description(robot: RobotModel) -> dict[str, object]:
@@ -22,7 +22,7 @@ def to_description(robot: RobotModel) -> dict[str, object]:
     """
     owners = _owners(robot)
     tabular = owners == list(range(len(robot.links))) and all(map(_follows_its_row, robot.links))
-    return {
+    description: dict[str, object] = {
         "name": robot.name,
         "convention": MODIFIED_DH if tabular else FRAMES,
         "joints": [
@@ -41,6 +41,9 @@ def to_description(robot: RobotModel) -> dict[str, object]:
         ],
         "prior": None if robot.prior is None else [_body(body) for body in robot.prior],
     }
+    if robot.shapes is not None:
+        description["shapes"] = [_ball(shape) for shape in robot.shapes]
+    return description
 
 
 def _entry(link: Link, joint: Joint, *, tabular: bool, owner: bool) -> dict[str, object]:
@@ -116,6 +119,10 @@ def _drive(joint: Joint) -> dict[str, object]:
 
 def _body(body: np.ndarray) -> dict[str, object]:
     return {"standard": dict(zip(INERTIAL_SYMBOLS, _floats(body), strict=True))}
+
+
+def _ball(shape: Ball | None) -> list[float] | None:
+    return None if shape is None else [*shape.centre, shape.radius]
 
 
 def _floats(values: np.ndarray) -> list[float]:

@@ -45,8 +45,11 @@ function unitOfMassMatrix({ joints }) {
 // List bodies on the boundary of the feasible set and parameters at their lower bound.
 function activeConstraints(active) {
   const links = active.filter((name) => name.startsWith("pseudo_inertia_")).map((name) => name.split("_").pop());
-  const others = active.filter((name) => !name.startsWith("pseudo_inertia_"));
+  const [large, dense] = ["size_", "density_"].map((kind) => active.filter((name) => name.startsWith(kind)).map((name) => name.split("_").pop()));
+  const others = active.filter((name) => !/^(pseudo_inertia|size|density)_/.test(name));
   return [
+    large.length ? element("li", {}, `As large as its link may be: the body of link ${listed(large)}.`) : null,
+    dense.length ? element("li", {}, `As small as the densest metal allows: the body of link ${listed(dense)}.`) : null,
     links.length ? element("li", {}, `${links.length === 1 ? "The body of link" : "The bodies of links"} ${listed(links)} ${links.length === 1 ? "lies" : "lie"} on the boundary of the feasible set (active semidefinite constraint).`) : null,
     others.length ? element("li", {}, `At the lower bound: ${listed(others)}.`) : null,
   ];

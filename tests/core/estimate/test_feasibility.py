@@ -78,12 +78,13 @@ def test_a_certificate_that_the_solver_did_not_finish_is_no_certificate(monkeypa
     assert (found.feasible, found.margin) == (None, None)
 
 
-def _held(world: World, **changes: float) -> tuple[str, ...]:
+def _held(world: World, *, plausible: bool = False, **changes: float) -> tuple[str, ...]:
     values = world.truth.copy()
     names = [one.name for one in world.model.parameters]
     for name, value in changes.items():
         values[names.index(name)] = value
-    return active_constraints(world.model, values, world.prior, module.Bounds())
+    bounds = module.Bounds(plausible=plausible)
+    return active_constraints(world.model, values, world.prior, bounds)
 
 
 def test_the_constraints_that_hold_an_estimate_are_named():
@@ -91,3 +92,21 @@ def test_the_constraints_that_hold_an_estimate_are_named():
     assert _held(world) == ()
     assert _held(world, FC1=0.0) == ("FC1",)
     assert _held(world, IA2=0.0, XX1=0.0, YY1=0.0) == ("pseudo_inertia_1", "IA2")
+    needle = _held(world, plausible=True, XX1=0.0, YY1=0.0)
+    assert {"pseudo_inertia_1", "density_1"} <= set(needle)
+    assert "size_2" in _held(world, plausible=True, ZZ2=100.0)
+    assert "size_2" not in _held(world, plausible=True, MX2=0.0, MY2=0.0, XX2=0.01, YY2=0.01, ZZ2=0.01)
+
+
+def test_least_squares_may_be_consistent_and_need_a_link_that_is_too_large():
+    world = world_of(planar_robot())
+    values = world.truth.copy()
+    names = [one.name for one in world.model.parameters]
+    for symbol, value in (("XX", 3.0), ("YY", 3.0), ("ZZ", 3.0)):  # half axes of 1.4 m on a link of 0.4 m
+        values[names.index(f"{symbol}2")] = value
+    far = world.base.base_of(values)
+    assert feasibility(world.base, far, world.prior).feasible
+    mass = ((2, 0.0, float(values[names.index("M2")])),)
+    asked = module.Bounds(mass=mass)
+    assert not feasibility(world.base, far, world.prior, asked).feasible
+    assert feasibility(world.base, world.true_base, world.prior, asked).feasible

@@ -38,7 +38,7 @@ def test_what_the_motion_leaves_open_keeps_the_value_that_was_believed():
 
 def test_a_right_prior_gives_the_whole_robot_back():
     world = world_of(random_robot(np.random.default_rng(0), 3), samples=400, noise=1e-5)
-    found = _fit(_believing(world, world.truth), bounds=Bounds(margin=0.0))
+    found = _fit(_believing(world, world.truth), bounds=Bounds(margin=0.0, plausible=False))
     np.testing.assert_allclose(found / world.prior.scale, world.truth / world.prior.scale, atol=2e-3)
 
 
@@ -88,7 +88,9 @@ def test_the_entropic_prior_does_not_depend_on_the_frame_that_bodies_are_written
             world.base,
             _about(first, world, rotation),
             Prior(centre, scale, "robot"),
-            EstimateOptions(solver="cvxpy", entropy=1e2, pull=1e-9, bounds=Bounds(margin=0.0)),
+            EstimateOptions(
+                solver="cvxpy", entropy=1e2, pull=1e-9, bounds=Bounds(margin=0.0, plausible=False)
+            ),
         ).standard
         answers.append(standard[columns])
     np.testing.assert_allclose(transform_body(answers[1], rotation, np.zeros(3)), answers[0], atol=2e-4)
@@ -117,7 +119,7 @@ def test_the_entropic_prior_is_refused_where_the_solver_cannot_state_it():
 def test_a_planar_robot_without_data_about_a_parameter_gives_it_the_believed_value():
     world = world_of(planar_robot(), noise=1e-3, samples=300)
     believed = true_parameters(world.model, seed=9)
-    found = _fit(_believing(world, believed), bounds=Bounds(margin=0.0))
+    found = _fit(_believing(world, believed), bounds=Bounds(margin=0.0, plausible=False))
     # MZ, XZ, YZ have no effect on a planar arm; nothing but the belief speaks of them, as far as the entries
     # that the log does tell leave a body that can exist: a quarter of a unit.
     for column, parameter in enumerate(world.model.parameters):

@@ -5,9 +5,10 @@ import pytest
 from scipy.optimize import minimize
 
 from tests.core.estimate.worlds import World, planar_robot, true_parameters, world_of
-from veritorque.core.estimate.constraints import Bounds, congruence, link_columns, lower_bounds
+from veritorque.core.estimate.constraints import Bounds, congruence, lower_bounds
 from veritorque.core.estimate.estimate import estimate
 from veritorque.core.estimate.options import PULL, EstimateOptions
+from veritorque.core.estimate.plausibility import SMALLEST, link_bounds
 from veritorque.core.robot.inertia import pseudo_inertia
 
 SOLVER_GAP = 2e-8
@@ -19,11 +20,12 @@ def _world() -> World:
 
 
 def _objective(world: World, standard: np.ndarray) -> float:
-    """Give the programme's objective, written anew; infinite for a robot that cannot exist."""
-    for columns in link_columns(world.model):
-        weights = congruence(world.prior, columns)
-        body = pseudo_inertia(standard[list(columns)]) * np.outer(weights, weights)
-        if np.linalg.eigvalsh(body)[0] < Bounds().margin:
+    """Give the programme's objective, written anew; infinite for an implausible robot."""
+    for link in link_bounds(world.model, Bounds(), world.prior):
+        weights, body = congruence(world.prior, link.columns), standard[list(link.columns)]
+        least = SMALLEST * max(body[9], 0.0) ** (5.0 / 3.0) * np.diag([1.0, 1.0, 1.0, 0.0])
+        scaled = (pseudo_inertia(body) - least) * np.outer(weights, weights)
+        if np.linalg.eigvalsh(scaled)[0] < Bounds().margin or link.row @ body < 0.0:
             return np.inf
     if np.any(standard < lower_bounds(world.model)):
         return np.inf
@@ -38,7 +40,8 @@ def test_no_direct_search_finds_a_cheaper_robot_that_can_exist(start):
     world = _world()
     best = estimate(world.base, world.system, world.prior, EstimateOptions()).standard
     inside = 0.999 * best + 0.001 * world.prior.centre
-    begin = inside if start == "optimum" else true_parameters(world.model, seed=31)
+    random = 0.2 * true_parameters(world.model, seed=31) + 0.8 * world.prior.centre
+    begin = inside if start == "optimum" else random
     assert np.isfinite(_objective(world, begin))
     scale = world.prior.scale
     options = {"maxfev": EVALUATIONS, "maxiter": EVALUATIONS, "adaptive": True, "xatol": 1e-9, "fatol": 1e-12}

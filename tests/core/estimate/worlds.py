@@ -98,13 +98,18 @@ class World:
 
 
 def world_of(
-    robot: RobotModel, *, seed: int = 0, samples: int = 200, noise: tuple[float, ...] | float = 0.1
+    robot: RobotModel,
+    *,
+    seed: int = 0,
+    samples: int = 200,
+    noise: tuple[float, ...] | float = 0.1,
+    truth: np.ndarray | None = None,
 ) -> World:
     """Write the equations of random states with white torque noise of the given deviation per joint (N m)."""
     rng = np.random.default_rng(seed)
     model = standard_model(robot)
     base = base_model(model)
-    truth = true_parameters(model, seed)
+    truth = true_parameters(model, seed) if truth is None else truth
     motion = random_motion(rng, len(robot.joints), samples, speed=2.0)
     state = MotionState(motion.position, motion.velocity, motion.acceleration)
     torque = model.torque(truth, state) + noise * rng.normal(size=state.position.shape)

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from veritorque.core.errors import OptionError
-from veritorque.core.estimate.constraints import CentreBox, CentreEllipsoid
+from veritorque.core.estimate.constraints import CentreBox, CentreEllipsoid, LinkSize
 from veritorque.core.identification.options import parse_diagnose_options, parse_options
 
 SECTIONS = ("filter", "validation", "bootstrap", "bounds", "prior")
@@ -45,6 +45,8 @@ def test_every_option_is_read():
             "prior": {"pull": 1e-4, "entropy": 2},
             "bounds": {
                 "margin": 1e-3,
+                "plausible": False,
+                "size": [[2, 0, 0, 0.1, 0.5]],
                 "mass": [[1, 0.5, 2]],
                 "total_mass": [1, 9],
                 "centre_box": [[1, -1, -1, -1, 1, 1, 1]],
@@ -74,6 +76,7 @@ def test_every_option_is_read():
     assert (options.bootstrap.draws, options.bootstrap.seed) == (7, 3)
     bounds = options.estimate.bounds
     assert (bounds.mass, bounds.total_mass, bounds.margin) == (((1, 0.5, 2.0),), (1.0, 9.0), 1e-3)
+    assert (bounds.plausible, bounds.sizes) == (False, (LinkSize(2, (0.0, 0.0, 0.1), 0.5),))
     assert bounds.centres == (
         CentreBox(1, (-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)),
         CentreEllipsoid(2, (0.0, 0.0, 0.0), (0.1, 0.2, 0.3)),
@@ -154,6 +157,10 @@ WRONG = [
     {"bounds": {"total_mass": [2, 1]}},
     {"bounds": {"total_mass": [1]}},
     {"bounds": {"total_mass": [[1, 2]]}},
+    {"bounds": {"size": [[1, 0, 0, 0, 0]]}},
+    {"bounds": {"size": [[1, 0, 0, 0]]}},
+    {"bounds": {"plausible": 1}},
+    {"bounds": {"exempt": [1]}},
     {"bounds": {"centre_box": [[1, 1, 1, 1, 0, 0, 0]]}},
     {"bounds": {"centre_ellipsoid": [[1, 0, 0, 0, 0, 1, 1]]}},
 ]
