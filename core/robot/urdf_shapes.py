@@ -66,5 +66,5 @@ def _shape(element: Element) -> Ball | None:
         half = 0.5 * number(cylinder, "length", where)
         return Ball((x, y, z), float(np.hypot(number(cylinder, "radius", where), half)))
     if (sphere := child(geometry, "sphere")) is not None:
-        return Ball((x, y, z), number(sphere, "radius", where))
+        return Ball((x, y, z), abs(number(sphere, "radius", where)))
     return None

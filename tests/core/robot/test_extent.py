@@ -59,6 +59,7 @@ def test_meshes_are_not_read_and_simple_shapes_of_the_other_kind_are():
     assert robot_from_urdf(urdf(MESH, MESH)).shapes is None
     assert robot_from_urdf(urdf(MESH, BOX)).shapes == robot_from_urdf(urdf(BOX, MESH)).shapes
     assert robot_from_urdf(urdf(ROD)).shapes[0].radius == pytest.approx(0.05)
+    assert robot_from_urdf(urdf('<sphere radius="-0.1"/>')).shapes[0].radius == 0.1
     assert robot_from_urdf(urdf('<box size="a lot"/>', BOX)).shapes == robot_from_urdf(urdf(BOX)).shapes
 
 
