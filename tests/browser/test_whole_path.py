@@ -47,8 +47,9 @@ def test_from_the_start_page_to_the_report_of_a_log_of_ones_own(look, service, s
 def test_the_list_of_studies_leads_to_each(look, service, studied):
     seen = look(service)
     page = seen.open("/")
-    link = page.get_by_role("link", name="Identification of yumi-left").first
+    link = page.locator(f"a[href$='{studied.removeprefix(service)}']").first
     link.wait_for()
+    assert "Identification of yumi-left" in link.text_content()
     seen.photograph("start_light")
     assert page.locator(".state.successful").count() >= 1
     link.click()
