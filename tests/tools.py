@@ -65,7 +65,7 @@ def random_robot(
 
 
 def random_bodies(rng: np.random.Generator, links: int, *, mass: float = 2.0) -> np.ndarray:
-    """Make bodies that can exist, of about the given mass (kg), the size of a hand."""
+    """Make physically consistent bodies, of about the given mass (kg), the size of a hand."""
     return np.array([_random_body(rng, mass * rng.uniform(0.5, 1.5)) for _ in range(links)])
 
 

@@ -2,14 +2,16 @@
 
 Every hypothesis is one set-up. Least squares bounds how well it can fit. Those that can still fit as well as
 the best are fitted with the constraints, best bound first, and judged on rows that were not fitted. The best
-is applied and the search goes on from it, until none is better than chance and their number explain.
+is applied and the search goes on from it, until none is better than chance and their number explain. Where
+several are best, the search goes on from each, and the fewest corrections are preferred.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .conflict import Hypothesis
+from .kinds.mounting import Mounting
 from .registry import CONFLICTS
 from .setup import Setup
 from .thresholds import DECISION, TRIAL
@@ -35,17 +37,80 @@ class _Tried:
     outcome: Outcome
 
 
-def find_conflicts(setup: Setup, trials: Trials) -> tuple[FoundConflict, ...]:
+Path = tuple[FoundConflict, ...]
+
+
+def find_conflicts(setup: Setup, trials: Trials) -> Path:
     """Search for corrections of a set-up, one after the other; the last one's set-up holds them all."""
-    found: list[FoundConflict] = []
     present = trials.outcome(trials.equations(setup))
-    while present is not None and len(found) < TRIAL.most_corrections:
-        conflict = _best(_bounded(setup, trials), present, trials)
-        if conflict is None:
-            break
-        found.append(conflict)
-        setup, present = conflict.hypothesis.setup, conflict.after
-    return tuple(found)
+    path = () if present is None else _path(setup, present, trials, TRIAL.most_corrections)
+    return _with_gravity_refined(path, setup, trials) if len(path) > 1 else path
+
+
+def _with_gravity_refined(path: Path, described: Setup, trials: Trials) -> Path:
+    """Refine the direction of gravity beside all other corrections: it was found beside what they correct."""
+    mountings = [place for place, step in enumerate(path) if step.hypothesis.conflict == Mounting.name]
+    if not mountings or mountings == [len(path) - 1]:
+        return path
+    corrected = path[-1].hypothesis.setup.with_gravity(described.robot.gravity)
+    tried = [
+        _Tried(hypothesis, outcome)
+        for hypothesis in CONFLICTS[Mounting.name].hypotheses(corrected, trials)
+        if (outcome := trials.outcome(trials.equations(hypothesis.setup))) is not None
+    ]
+    if not tried:
+        return path
+    best = min(tried, key=lambda candidate: candidate.outcome.score).hypothesis
+    refined: list[FoundConflict] = []
+    for place, step in enumerate(path):
+        if place in mountings[1:]:
+            continue
+        own = best if place == mountings[0] else step.hypothesis
+        gravity = best.setup if place >= mountings[0] else described
+        hypothesis = replace(own, setup=step.hypothesis.setup.with_gravity(gravity.robot.gravity))
+        after = trials.outcome(trials.equations(hypothesis.setup))
+        if after is None:
+            return path
+        before = refined[-1].after if refined else step.before
+        refined.append(replace(step, hypothesis=hypothesis, before=before, after=after))
+    return tuple(refined) if _cost(tuple(refined)) < _cost(path) else path
+
+
+def _path(setup: Setup, present: Outcome, trials: Trials, most: int) -> Path:
+    """Give the corrections that lead on from a set-up.
+
+    Where several predict alike and the first is not all, the search goes on from each of them. Several wrong
+    ones may undo each other: a mirrored robot moves under mirrored gravity as the true one does. So
+    paths are compared by their last error, to which each correction adds what one has to gain.
+    """
+    steps = _steps(_bounded(setup, trials), present, trials) if most else ()
+    paths: list[Path] = []
+    for step in steps:
+        paths.append((step, *_path(step.hypothesis.setup, step.after, trials, most - 1)))
+        if len(paths[0]) == 1:
+            return paths[0]
+    if not paths:
+        return ()
+    undecided, equal = _margins(present, trials)
+    least = min(map(_cost, paths))
+    chosen = next(path for path in paths if _cost(path) <= least + equal)
+    others = (path for path in paths if _corrections(path) != _corrections(chosen))
+    alike = tuple(path[0].hypothesis for path in others if _cost(path) < _cost(chosen) + undecided)
+    return (replace(chosen[0], equivalents=alike), *chosen[1:])
+
+
+def _cost(path: Path) -> float:
+    return path[-1].after.score + DECISION.least_gain * len(path)
+
+
+def _corrections(path: Path) -> set[str]:
+    return {step.hypothesis.statement for step in path}
+
+
+def _margins(present: Outcome, trials: Trials) -> tuple[float, float]:
+    """Give the differences of scores below which two are undecided, and alike."""
+    independent = trials.samples.independent * len(present.errors)
+    return 0.5 * DECISION.undecided / independent, 0.5 * DECISION.equal / independent
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,16 +130,16 @@ def _bounded(setup: Setup, trials: Trials) -> list[_Bounded]:
     return listed
 
 
-def _best(listed: list[_Bounded], present: Outcome, trials: Trials) -> FoundConflict | None:
-    """Choose the hypothesis that predicts best, the most usual of those that predict alike."""
+def _steps(listed: list[_Bounded], present: Outcome, trials: Trials) -> Path:
+    """Give the hypotheses that predict best, first the most usual of those that predict alike."""
     independent = trials.samples.independent * len(present.errors)
-    margin, equal = (0.5 * decided / independent for decided in (DECISION.undecided, DECISION.equal))
+    undecided, equal = _margins(present, trials)
     tried = _tried(listed, present, trials)
     best = min((candidate.outcome.score for candidate in tried), default=present.score)
-    chance = margin + np.log(max(len(listed), 1)) / independent
+    chance = undecided + np.log(max(len(listed), 1)) / independent
     if present.score - best < max(DECISION.least_gain, chance):
-        return None
-    near = [candidate for candidate in tried if candidate.outcome.score < best + margin]
+        return ()
+    near = [candidate for candidate in tried if candidate.outcome.score < best + undecided]
     chosen = next(candidate for candidate in near if candidate.outcome.score <= best + equal)
 
     def likelihood(outcome: Outcome) -> float:
@@ -82,10 +147,12 @@ def _best(listed: list[_Bounded], present: Outcome, trials: Trials) -> FoundConf
 
     others = sum(likelihood(candidate.outcome) for candidate in tried if candidate not in near)
     confidence = 1.0 / (1.0 + others + len(listed) * likelihood(present))
-    equivalents = tuple(
-        candidate.hypothesis for candidate in near if candidate.hypothesis.key != chosen.hypothesis.key
-    )
-    return FoundConflict(chosen.hypothesis, present, chosen.outcome, confidence, equivalents)
+
+    def step(own: _Tried) -> FoundConflict:
+        equivalents = tuple(other.hypothesis for other in near if other.hypothesis.key != own.hypothesis.key)
+        return FoundConflict(own.hypothesis, present, own.outcome, confidence, equivalents)
+
+    return tuple(map(step, [chosen, *(candidate for candidate in near if candidate is not chosen)]))
 
 
 def _tried(listed: list[_Bounded], present: Outcome, trials: Trials) -> list[_Tried]:

@@ -94,7 +94,7 @@ class IdentifiedRobot:
             eigenvalues = np.linalg.eigvalsh(pseudo_inertia(body))
             if body[9] <= 0.0 or eigenvalues[0] < -NEGLIGIBLE * eigenvalues[-1]:
                 raise OptionError(
-                    f"the body of link {number} cannot exist, and simulators refuse it",
+                    f"the body of link {number} is physically inconsistent, and simulators refuse it",
                     evidence={"link": number, "mass": float(body[9]), "eigenvalue": float(eigenvalues[0])},
                     remedy="identify with the estimator sdp, or take a table of parameters, which holds any",
                 )

@@ -81,10 +81,10 @@ class Bounds:
     sizes: tuple[LinkSize, ...] = ()
     """Where all of a link's mass lies, as declared."""
     plausible: bool = True
-    """Whether bodies that are not declared keep to the size that the robot's description lets one assume, and
-    all bodies to the density of metals."""
+    """Whether bodies that are not declared have the size that follows from the robot's description, and no
+    body is denser than metal."""
     exempt: tuple[int, ...] = ()
-    """Links whose size and density are not asked for, to see what their bounds cost."""
+    """Links whose size and density are not bounded, to measure what their bounds cost."""
     margin: float = DEFAULT_MARGIN
     """Least eigenvalue of every scaled pseudo-inertia; keeps the mass matrix off singularity."""
 

@@ -19,21 +19,21 @@ from .programme import Programme, Solution
 from .system import System
 from .with_clarabel import solve_with_clarabel
 
-COSTLY = 1.02
+BOUND_COST = 1.02
 """Factor on the squared error, 1 % of the RMS error, from which bounds on sizes and densities are said to
 contradict a log. On four measured arms they cost 1.0003 to 1.011."""
-DEAR = 1.05
+MARGIN_COST = 1.05
 """Cost of the consistency constraint over least squares, from which it is asked whether the margin is why.
 About 1.01 is usual; a light tip that has to keep the margin costs 1.5 to 60 times."""
 
 
 @dataclass(frozen=True)
 class CostlyBound:
-    """Hold a link whose size or density costs what a log does not bear."""
+    """Hold a link whose bound on size or density contradicts the log."""
 
     bound: LinkBound
     ratio: float
-    """Factor by which the squared error falls without what is asked of this link, too."""
+    """Factor by which the squared error falls when this link's bound is removed, too."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +52,8 @@ class Estimate:
     solution: Solution | None
     """What the solver said; None where none was needed."""
     costly: tuple[CostlyBound, ...] = ()
-    """Links whose assumed size or density contradicts the log, and was let go; declared ones are kept."""
+    """Links whose bound on size or density contradicts the log. Assumed bounds are removed, and
+    declared ones kept."""
 
     @property
     def objective(self) -> float:
@@ -112,16 +113,9 @@ def estimate(
 def _solve_with_large_links(
     programme: Programme, solver: str, least: float
 ) -> tuple[Solution, tuple[CostlyBound, ...]]:
-    """Solve a programme; let go of assumed sizes that contradict the log, and name the links.
+    """Solve a programme; remove assumed bounds on bodies that contradict the log, and list their links.
 
-    Parameters
-    ----------
-    least
-        The cost of the unconstrained optimum.
-
-    Notes
-    -----
-    What is declared stays, and is named all the same.
+    Declared bounds are kept, and listed as well. `least` is the cost of the unconstrained optimum.
     """
     solution = _solve_with_light_links(programme, solver, least)
     costly = costly_bounds(programme, solution, solver, least)
@@ -129,59 +123,58 @@ def _solve_with_large_links(
     larger = tuple(one.bound.link for one in costly if one.bound.link not in declared)
     if not larger:
         return solution, costly
-    freed = replace(programme, bounds=replace(programme.bounds, exempt=larger))
-    return _solve_with_light_links(freed, solver, least), costly
+    without = replace(programme, bounds=replace(programme.bounds, exempt=larger))
+    return _solve_with_light_links(without, solver, least), costly
 
 
 def costly_bounds(
     programme: Programme, solution: Solution, solver: str, least: float
 ) -> tuple[CostlyBound, ...]:
-    """List the links whose size and density contradict the log, the dearest first.
+    """List the links whose size and density contradict the log, the costliest first.
 
-    One link after the other is let go, until what is asked of the others costs next to nothing. None is
-    listed where a programme without them has no accurate optimum.
+    The bounds of one link after the other are removed, until those that remain cost less than `BOUND_COST`.
+    None is listed where a programme without them has no accurate optimum.
     """
     bounds, now = programme.bounds, programme.cost(solution)
-    if now < COSTLY * least:
+    if now < BOUND_COST * least:
         return ()
     links = link_bounds(programme.base.model, bounds, programme.prior)
     held = [link for link in links if any(link.exhausted(solution.standard))]
 
     def cost_without(links: Sequence[LinkBound]) -> float:
-        freed = replace(bounds, exempt=tuple(link.link for link in links), margin=solution.margin)
+        fewer = replace(bounds, exempt=tuple(link.link for link in links), margin=solution.margin)
         try:
-            answer = solve(replace(programme, bounds=freed), solver)
+            answer = solve(replace(programme, bounds=fewer), solver)
         except SolverError:
             return np.inf
         return max(programme.cost(answer), np.finfo(float).tiny)
 
     floor = cost_without(held) if held else np.inf
-    named: list[CostlyBound] = []
-    while now >= COSTLY * floor and len(named) < len(held):
-        freed = [costly.bound for costly in named]
-        costs = {link.link: cost_without([*freed, link]) for link in held if link not in freed}
-        dearest = min(held, key=lambda link: costs.get(link.link, np.inf))
-        named.append(CostlyBound(dearest, now / costs[dearest.link]))
-        now = costs[dearest.link]
-    return tuple(named)
+    found: list[CostlyBound] = []
+    while now >= BOUND_COST * floor and len(found) < len(held):
+        removed = [costly.bound for costly in found]
+        left = [link for link in held if link not in removed]
+        costs = {link.link: cost_without([*removed, link]) for link in left}
+        costliest = min(left, key=lambda link: costs[link.link])
+        if not np.isfinite(costs[costliest.link]):
+            break
+        found.append(CostlyBound(costliest, now / costs[costliest.link]))
+        now = costs[costliest.link]
+    return tuple(found)
 
 
 def _solve_with_light_links(programme: Programme, solver: str, least: float) -> Solution:
-    """Solve a programme; where the default margin itself is what costs, solve it with a lighter one.
-
-    Parameters
-    ----------
-    least
-        The cost of the unconstrained optimum.
+    """Solve a programme; where the default margin itself raises the cost, solve it with a smaller one.
 
     Notes
     -----
-    The margin is a share of an ordinary link. A point mass or a light tip has less, and keeping it above
-    contradicts the log. A contradiction of the log with every consistent robot stays, and keeps the margin.
+    `least` is the cost of the unconstrained optimum. The margin is a share of an ordinary link. A point mass
+    or a light tip has less, and keeping it above contradicts the log. Where every consistent
+    robot contradicts the log, the margin is kept.
     """
     solution = solve(programme, solver)
     cost = programme.cost(solution)
-    if programme.bounds.margin != DEFAULT_MARGIN or cost <= DEAR * least:
+    if programme.bounds.margin != DEFAULT_MARGIN or cost <= MARGIN_COST * least:
         return solution
     lighter = replace(programme, bounds=replace(programme.bounds, margin=LIGHT_MARGIN))
     answer = solve(lighter, solver)

@@ -16,32 +16,34 @@ import numpy as np
 from ..arrays import Parameters, Vector
 from ..dynamics.model import DynamicModel
 from ..robot.extent import Extent, distance_square, link_extents
-from ..robot.inertia import PSEUDO_INERTIA_BASIS
+from ..robot.inertia import PSEUDO_INERTIA_BASIS, pseudo_inertia
 from ..robot.model import Ball
 from .constraints import Bounds, Prior, link_columns
 
 DENSEST = 20_000.0
 """Density above which no link is, kg/m3: tungsten has 19,300, steel 7,850. Links are hollow, and 1,000 to
-4,000 as ellipsoids; a tenth of this would cut solid ones off, ten times allows needles of 4 mm."""
+4,000 as ellipsoids; a tenth of this would exclude solid ones, ten times allows half axes of 4 mm."""
 SMALLEST = 0.2 * (3.0 / (4.0 * np.pi * DENSEST)) ** (2.0 / 3.0)
 """k in t >= k m^(5/3): the second moment per axis of a ball of that density, kg m2 for 1 kg."""
 ORDINARY = 0.018
 """Second moment per axis of the nominal body over its mass and length squared: a ball of 0.3 lengths."""
 AT_BOUND = 1e-3
-"""Share of a bound within which a body keeps to it."""
+"""Share of a bound on size within which it is active."""
+AT_DENSITY = 0.1
+"""The same of the least second moment that a density allows."""
 
 
 @dataclass(frozen=True, eq=False)
 class LinkBound:
-    """Hold what is asked of one link's body."""
+    """Hold the bounds on one link's body."""
 
     link: int
     columns: tuple[int, ...]
     """Places of its ten parameters."""
     extent: Extent | None
     """The ball in which it lies; None where nothing is known."""
-    is_dense: bool
-    """Whether it keeps to the density of metals."""
+    density_bounded: bool
+    """Whether its density is bounded by that of metals."""
 
     @property
     def row(self) -> Vector:
@@ -54,31 +56,31 @@ class LinkBound:
         return np.asarray(np.einsum("kij,ij->k", PSEUDO_INERTIA_BASIS, square))
 
     def exhausted(self, standard: Parameters) -> Iterator[str]:
-        """Name the bounds that hold a body."""
+        """Name the active bounds."""
         body = standard[list(self.columns)]
         mass = float(body[9])
         if self.extent is not None and self.row @ body < AT_BOUND * mass * self.extent.ball.radius**2:
             yield f"size_{self.link}"
-        if not self.is_dense:
+        if not self.density_bounded:
             return
         spread = np.linalg.eigvalsh(second_moments(body))[0]
-        if spread < (1.0 + 0.1) * SMALLEST * max(mass, 0.0) ** (5.0 / 3.0):
+        if spread < (1.0 + AT_DENSITY) * SMALLEST * max(mass, 0.0) ** (5.0 / 3.0):
             yield f"density_{self.link}"
 
 
 def second_moments(body: Vector) -> np.ndarray:
     """Give the second moments of a body's mass about its mass centre, kg m2; zeros without mass."""
-    pseudo = np.einsum("kij,k->ij", PSEUDO_INERTIA_BASIS, body)
+    pseudo = pseudo_inertia(body)
     if pseudo[3, 3] <= 0.0:
         return np.zeros((3, 3))
     return np.asarray(pseudo[:3, :3] - np.outer(pseudo[:3, 3], pseudo[:3, 3]) / pseudo[3, 3])
 
 
 def link_bounds(model: DynamicModel, bounds: Bounds, prior: Prior) -> tuple[LinkBound, ...]:
-    """Give what is asked of every modelled link's body; a declared place of its centre replaces its size.
+    """Give the bounds on every modelled link's body; a declared place of its centre replaces its size.
 
     Where an ordinary link would be denser than metal, in proportion to torques and lengths, the torque is in
-    another unit or its lengths are not the robot's: then no density is asked for.
+    another unit or its lengths are not the robot's: then density is not bounded.
     """
     placed = {region.link for region in bounds.centres}
     declared = {size.link: Extent(Ball(size.centre, size.radius), "declared") for size in bounds.sizes}
@@ -89,13 +91,15 @@ def link_bounds(model: DynamicModel, bounds: Bounds, prior: Prior) -> tuple[Link
             number,
             columns,
             None if number in bounds.exempt else declared.get(number) or assumed[number - 1],
-            is_dense=bounds.plausible and number not in bounds.exempt and _is_known(prior, columns),
+            density_bounded=bounds.plausible
+            and number not in bounds.exempt
+            and _has_known_units(prior, columns),
         )
         for number, columns in enumerate(link_columns(model), start=1)
     )
 
 
-def _is_known(prior: Prior, columns: tuple[int, ...]) -> bool:
+def _has_known_units(prior: Prior, columns: tuple[int, ...]) -> bool:
     return density_unit(prior, columns) < ORDINARY * float(prior.scale[columns[0]])
 
 

@@ -145,7 +145,7 @@ def add_links(
         columns, weights = list(link.columns), congruence(prior, link.columns)
         rows = np.zeros((10, cones.width))
         rows[:, columns] = -svec_rows(weights) * prior.scale[columns]
-        if link.is_dense:
+        if link.density_bounded:
             rows[:, first + AUXILIARY * place] = density_column(prior, link.columns)
             _add_power(cones, first + AUXILIARY * place, columns[9])
         cones.add(clarabel.PSDTriangleConeT(4), rows, -margin * SVEC_IDENTITY)

@@ -83,7 +83,7 @@ def _of_body(programme: Programme, phi: cvxpy.Variable, link: LinkBound) -> list
     scale, columns = programme.prior.scale, list(link.columns)
     weights = np.diag(congruence(programme.prior, link.columns))
     body, constraints = _pseudo_inertia(programme, phi, link.columns), list[cvxpy.Constraint]()
-    if link.is_dense:
+    if link.density_bounded:
         least = cvxpy.Variable()
         constraints.append(cvxpy.power(phi[columns[9]], 5 / 3) <= least)
         body = body - density_unit(programme.prior, link.columns) * least * np.diag([1.0, 1.0, 1.0, 0.0])

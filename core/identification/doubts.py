@@ -68,13 +68,13 @@ def _cost(found: Identification) -> list[str]:
 
 
 def _sizes(found: Identification) -> list[str]:
-    """Say which links the log gives another size than they are assumed to have."""
+    """List the links whose bound on size or density contradicts the log."""
     sentences = []
     for costly in found.estimate.costly:
         link, extent = costly.bound.link, costly.bound.extent
         size = "" if extent is None else f", all within {_ball(extent)} ({SOURCES[extent.source]})"
         kept = extent is not None and extent.source == "declared"
-        done = "kept all the same" if kept else "let go: its body is larger or denser"
+        done = "kept, because it is declared" if kept else "removed: the body is larger or denser"
         sentences.append(
             f"A plausible body of link {link} (no denser than {DENSEST:g} kg/m3{size}) raises the squared "
             f"error by a factor of {costly.ratio:.3g}. This bound was {done}; give the link's true size "

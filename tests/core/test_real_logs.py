@@ -190,7 +190,7 @@ def test_tx40_agrees_with_the_published_base_parameters_within_three_combined_de
 
 
 # The floors are those of an unconstrained fit. On these two robots the sensors sit behind the gears, and
-# least squares finds negative rotor inertias; a robot that can exist may not have them and pays for it.
+# least squares finds negative rotor inertias; a consistent robot may not have them, at a cost.
 
 
 @cache

@@ -1,4 +1,4 @@
-"""The truth behind the shipped log: a robot that can exist, near the published one."""
+"""The truth behind the shipped log: a physically consistent robot, near the published one."""
 
 import json
 

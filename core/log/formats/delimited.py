@@ -156,7 +156,6 @@ def open_delimited(path: Path) -> DelimitedTable:
             remedy="write names without blanks, or separate the columns by commas, semicolons or tabs",
         )
     row = found.first_row
-    decimal = "," if found.delimiter != "," and "," in row and "." not in row else "."
     repeated = check_text(path, lines[found.header_at] if found.cells else "")
     repeated -= found.header_at > 0
     cells = dict(zip(names, split_cells(row, found.delimiter), strict=False))
@@ -167,7 +166,7 @@ def open_delimited(path: Path) -> DelimitedTable:
         path=path,
         names=names,
         delimiter=found.delimiter,
-        decimal=decimal,
+        decimal=_decimal_sign(lines[found.skip :], found.delimiter),
         skip=found.skip,
         stamps=stamps,
         texts=tuple(texts),
@@ -211,6 +210,14 @@ def _first_line(lines: Sequence[str]) -> TextHeader:
         skip=next(with_text, content[0] + 1),
         header_at=content[0],
     )
+
+
+def _decimal_sign(rows: Sequence[str], delimiter: str) -> str:
+    """Read the decimal sign off the first row that has one: recorders begin with rows of whole zeros."""
+    if delimiter == ",":
+        return "."
+    first = next((row for row in rows if not is_comment(row) and ("," in row or "." in row)), ".")
+    return "." if "." in first else ","
 
 
 def _names(found: TextHeader) -> tuple[str, ...]:

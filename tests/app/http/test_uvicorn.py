@@ -27,11 +27,11 @@ PROTOCOL = {
 CYCLE = {
     "body", "disconnected", "keep_alive", "message_event", "response_complete", "response_started",
     "transport", "waiting_for_100_continue",
-}  # fmt: skip
+}  # fmt: skip  # a table
 CYCLE_ARGUMENTS = {
     "scope", "transport", "flow", "logger", "access_logger", "access_log", "default_headers", "message_event",
     "expect_100_continue", "keep_alive", "on_response",
-}  # fmt: skip
+}  # fmt: skip  # a table
 FLOW = {"pause_reading", "read_paused", "write_paused"}
 SERVER = {"startup", "on_tick", "shutdown"}
 

@@ -79,6 +79,26 @@ def test_a_measured_length_that_is_described_too_short_is_named_or_what_equals_i
     assert not list(CONFLICTS["link_length"].hypotheses(described, trials))
 
 
+@pytest.mark.parametrize("seed", [3, 6, 11])
+def test_the_fewest_corrections_are_named_where_more_would_do_as_well(seed):
+    """A sign beside another gravity: neither is found right beside the other's error."""
+    row = {"type": "revolute", "alpha": 0.0, "d": 0.0, "r": 0.0, "theta_offset": 0.0}
+    rows = [
+        row,
+        {**row, "alpha": -np.pi / 2, "d": 0.2},
+        {**row, "type": "prismatic", "alpha": np.pi / 2, "d": 0.3},
+    ]
+    believed = robot_from_description({"name": "wall", "joints": rows})
+    model, state = standard_model(replace(believed, gravity=np.array([0.0, -9.81, 0.0]))), swing(3, seed=seed)
+    torque = model.torque(true_parameters(model, seed=seed), state) * [1.0, -1.0, 1.0]
+    torque += 0.01 * np.std(torque, axis=0) * np.random.default_rng(seed).normal(size=torque.shape)
+    log = log_from_arrays("wall", np.arange(len(torque)) / 100.0, state.position, torque)
+    document = identify(IdentifyRequest(believed, (log,), PLAIN))
+    named = sorted((one["conflict"], *one["joints"]) for one in document["conflicts"])
+    assert named == [("mounting",), ("torque_sign", 2)]
+    assert document["conflicts"][-1]["correction"]["robot"]["gravity"] == pytest.approx([0.0, -9.81, 0.0])
+
+
 def test_a_robot_whose_table_is_in_the_standard_convention_is_read_so(arm):
     robot, log, sound = arm
     described = to_description(robot)

@@ -1,4 +1,4 @@
-"""Hold the certificate of feasibility: it passes every robot that can exist, and no robot that cannot."""
+"""Hold the certificate of feasibility: it passes every physically consistent robot, and no other."""
 
 import numpy as np
 import pytest

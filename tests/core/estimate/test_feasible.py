@@ -1,4 +1,4 @@
-"""Hold the feasible estimate to what it promises: a robot that can exist, at the least price."""
+"""Hold the feasible estimate to what it promises: a physically consistent robot, at the least price."""
 
 from dataclasses import replace
 

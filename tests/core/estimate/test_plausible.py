@@ -25,7 +25,7 @@ def _bodies(world: World, standard: np.ndarray) -> list[np.ndarray]:
 
 
 def _noisy(seed: int = 4) -> World:
-    """Give a world whose noise drives bodies to the edge of what can exist."""
+    """Give a world whose noise drives bodies to the boundary of the feasible set."""
     return world_of(random_robot(np.random.default_rng(seed), 4), seed=seed, samples=60, noise=6.0)
 
 

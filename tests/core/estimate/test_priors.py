@@ -121,7 +121,7 @@ def test_a_planar_robot_without_data_about_a_parameter_gives_it_the_believed_val
     believed = true_parameters(world.model, seed=9)
     found = _fit(_believing(world, believed), bounds=Bounds(margin=0.0, plausible=False))
     # MZ, XZ, YZ have no effect on a planar arm; nothing but the belief speaks of them, as far as the entries
-    # that the log does tell leave a body that can exist: a quarter of a unit.
+    # that the log does tell leave a physically consistent body: a quarter of a unit.
     for column, parameter in enumerate(world.model.parameters):
         if parameter.symbol in {"XZ", "YZ", "MZ"}:
             assert found[column] == pytest.approx(believed[column], abs=0.25 * world.prior.scale[column])

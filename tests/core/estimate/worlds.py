@@ -44,7 +44,7 @@ def wrist_robot() -> RobotModel:
 
 
 def true_parameters(model: DynamicModel, seed: int = 0, mass: float = 2.0) -> np.ndarray:
-    """Give standard parameters of a robot that can exist."""
+    """Give standard parameters of a physically consistent robot."""
     bodies = random_bodies(np.random.default_rng(seed), len(model.robot.links), mass=mass)
     symbols = ("XX", "XY", "XZ", "YY", "YZ", "ZZ", "MX", "MY", "MZ", "M")
     return np.array(

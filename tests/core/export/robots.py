@@ -68,7 +68,7 @@ ROBOTS: dict[str, RobotModel] = {
 
 
 def identified(robot: RobotModel, seed: int = 0) -> IdentifiedRobot:
-    """Give a robot bodies that can exist and drives with every number set."""
+    """Give a robot physically consistent bodies and drives with every number set."""
     rng = np.random.default_rng(seed)
     model = standard_model(robot)
     standard = rng.uniform(0.05, 0.5, len(model.parameters))

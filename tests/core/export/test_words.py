@@ -190,7 +190,7 @@ def test_a_body_that_cannot_exist_is_refused_with_what_to_do(name, body):
     standard = whole.standard.copy()
     standard[10:20] = body
     broken = replace(whole, standard=standard)
-    with pytest.raises(OptionError, match="link 2 cannot exist") as caught:
+    with pytest.raises(OptionError, match="link 2 is physically inconsistent") as caught:
         SIMULATORS[name](broken)
     assert "sdp" in caught.value.remedy
     for table in (write_yaml, write_c_header, write_model):

@@ -86,6 +86,14 @@ def test_text_may_have_comments_semicolons_and_decimal_commas(tmp_path):
     np.testing.assert_array_equal(whole_rows(read_log(path)).position[:, 0], COLUMNS["q_1"])
 
 
+def test_whole_zeros_in_the_first_rows_hide_no_decimal_commas(tmp_path):
+    path = write_csv(tmp_path / "log.csv", COLUMNS, ";")
+    header, *rows = path.read_text(encoding="utf-8").replace(".", ",").split("\n")
+    zeros = [";".join("0" for _ in COLUMNS)] * 5
+    path.write_text("\n".join([header, *zeros, *rows]), encoding="utf-8")
+    np.testing.assert_array_equal(whole_rows(read_log(path)).position[-100:, 0], COLUMNS["q_1"][-100:])
+
+
 @pytest.mark.parametrize("kilobytes", [1047, 1048, 1049, 3000])
 def test_a_header_may_stand_below_megabytes_of_comments(tmp_path, kilobytes):
     comments = ("# " + "c" * 997 + "\n") * kilobytes
