@@ -10,26 +10,12 @@ from typing import cast
 
 import numpy as np
 
-from ..arrays import LinkParameters, LinkTable
-from ..errors import RobotError
 from ..fields import Fields
-from .inertia import from_mass_properties
-from .model import (
-    FRICTION_KINDS,
-    INERTIAL_SYMBOLS,
-    INERTIAL_UNITS,
-    Ball,
-    Coupling,
-    Joint,
-    JointKind,
-    Limits,
-    Link,
-    NamedFrame,
-    RobotModel,
-)
+from .link_data import RobotFields, read_frames, read_prior, read_rotation, read_shapes
+from .model import FRICTION_KINDS, Coupling, Joint, JointKind, Limits, Link, RobotModel
 from .modified_dh import ModifiedDHRow
 from .plausibility import angle_remarks
-from .right_angles import meant_angle, meant_rotation
+from .right_angles import meant_angle
 
 MODIFIED_DH, FRAMES = "modified-dh", "frames"
 MOST_JOINTS = 64
@@ -83,27 +69,6 @@ COUPLING_FIELDS = {
     "joints": "at least two different joint numbers, counted from 1",
     "weights": "one number per joint",
 }
-PRIOR_FIELDS = {
-    "standard": "an object with XX XY XZ YY YZ ZZ (kg m2) MX MY MZ (kg m) M (kg) about the frame's origin",
-    "mass": "a number in kg",
-    "center_of_mass": "three numbers in m in the link's frame",
-    "inertia_at_com": "six numbers XX XY XZ YY YZ ZZ in kg m2 about the mass centre, along the frame's axes",
-}
-FIXED_FRAME_FIELDS = {
-    "name": "a text, such as tool0 or flange",
-    "link": "the number of the joint whose link carries it, counted from 1",
-    "rotation": "three rows of three numbers: a rotation matrix from this frame into the link's",
-    "translation": "three numbers in m: this frame's origin in the link's frame",
-}
-MOST_FRAMES = 200
-SHAPE_FIELD = {"shape": "four numbers x, y, z, radius in m"}
-SYMBOL_FIELDS = {symbol: f"a number in {unit}" for symbol, unit in INERTIAL_UNITS.items()}
-
-
-class RobotFields(Fields):
-    """Read the fields of an object of a robot description."""
-
-    error = RobotError
 
 
 def robot_from_description(description: object) -> RobotModel:
@@ -135,10 +100,10 @@ def robot_from_description(description: object) -> RobotModel:
         joints=joints,
         gravity=top.numbers("gravity", 3) if "gravity" in top.value else np.array(LEVEL_GRAVITY),
         couplings=_couplings(top, len(joints)),
-        prior=_prior(top, len(links)),
+        prior=read_prior(top, len(links)),
         remarks=tuple(angle_remarks(_written_angles(rows))),
-        frames=_frames(top, len(links)),
-        shapes=_shapes(top, len(links)),
+        frames=read_frames(top, len(links)),
+        shapes=read_shapes(top, len(links)),
     )
 
 
@@ -217,7 +182,9 @@ def _link(row: Fields, number: int, numbers: Mapping[str, int]) -> Link:
         return Link(name, kind, antecedent, numbers[own], *modified.placement(), row=modified)
     joint = _mimicked_joint(row, numbers) if row.has("mimics") else numbers[own]
     ratio, offset = row.number("ratio", 1.0), row.number("offset", 0.0)
-    return Link(name, kind, antecedent, joint, _rotation(row), row.numbers("translation", 3), ratio, offset)
+    return Link(
+        name, kind, antecedent, joint, read_rotation(row), row.numbers("translation", 3), ratio, offset
+    )
 
 
 def _name(row: Fields, number: int) -> str:
@@ -234,14 +201,6 @@ def _mimicked_joint(row: Fields, numbers: Mapping[str, int]) -> int:
     return numbers[master]
 
 
-def _rotation(row: Fields) -> np.ndarray:
-    rotation = row.rows("rotation", 3, least=3, most=3)
-    # Six written digits are enough; more than that is not a rotation.
-    if np.abs(rotation @ rotation.T - np.eye(3)).max() > 1e-5 or np.linalg.det(rotation) < 0.0:
-        row.refuse("rotation", "is not a rotation: its rows are not orthonormal and right-handed")
-    return meant_rotation(rotation)
-
-
 def _couplings(top: Fields, joints: int) -> tuple[Coupling, ...]:
     listed = top.items("couplings", most=joints) if top.has("couplings") else ()
     couplings: list[Coupling] = []
@@ -255,55 +214,3 @@ def _couplings(top: Fields, joints: int) -> tuple[Coupling, ...]:
             entry.refuse("number" if numbered else "joints", f"gives it the number {number}, which is taken")
         couplings.append(Coupling(entry.text("name"), number, members, weights))
     return tuple(couplings)
-
-
-def _prior(top: Fields, links: int) -> LinkTable | None:
-    if not top.has("prior"):
-        return None
-    bodies = top.items("prior", least=links, most=links)
-    return np.array([_body(value, number) for number, value in enumerate(bodies, start=1)])
-
-
-def _frames(top: Fields, links: int) -> tuple[NamedFrame, ...]:
-    found: list[NamedFrame] = []
-    for position, value in enumerate(top.items("frames", most=MOST_FRAMES) if top.has("frames") else ()):
-        entry = RobotFields(value, f"frame {position + 1}", f"/frames/{position}", FIXED_FRAME_FIELDS)
-        name = entry.text("name")
-        if name in {earlier.name for earlier in found}:
-            entry.refuse("name", f"repeats {name}, which is taken")
-        link = entry.integer("link", (1, links))
-        found.append(NamedFrame(name, link, _rotation(entry), entry.numbers("translation", 3)))
-    return tuple(found)
-
-
-def _shapes(top: Fields, links: int) -> tuple[Ball | None, ...] | None:
-    if not top.has("shapes"):
-        return None
-    listed = top.items("shapes", least=links, most=links)
-    return tuple(_ball(top, value, number) for number, value in enumerate(listed, start=1))
-
-
-def _ball(top: Fields, value: object, number: int) -> Ball | None:
-    if value is None:
-        return None
-    row = RobotFields({"shape": value}, f"the shape of joint {number}", f"/shapes/{number - 1}", SHAPE_FIELD)
-    x, y, z, radius = map(float, row.numbers("shape", 4))
-    if radius < 0.0:
-        top.refuse("shapes", f"gives joint {number} a radius below zero")
-    return Ball((x, y, z), radius)
-
-
-def _body(value: object, number: int) -> LinkParameters:
-    body = RobotFields(value, f"the prior of joint {number}", f"/prior/{number - 1}", PRIOR_FIELDS)
-    if "standard" in body.value:
-        if len(body.value) > 1:
-            raise RobotError(
-                f"{body.where} is given twice",
-                evidence={"pointer": body.pointer, "fields": list(body.value)},
-                remedy="give either standard, or mass, center_of_mass and inertia_at_com",
-            )
-        table = RobotFields(body.value["standard"], body.where, f"{body.pointer}/standard", SYMBOL_FIELDS)
-        return np.array([table.number(symbol) for symbol in INERTIAL_SYMBOLS])
-    xx, xy, xz, yy, yz, zz = body.numbers("inertia_at_com", 6)
-    inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    return from_mass_properties(body.number("mass"), body.numbers("center_of_mass", 3), inertia)

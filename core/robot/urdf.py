@@ -16,9 +16,10 @@ import numpy as np
 from ..arrays import LinkParameters, LinkTable, Rotation, Vector3
 from ..errors import RobotError
 from ..fields import LARGEST_NUMBER
-from .description import LEVEL_GRAVITY, MOST_FRAMES, MOST_JOINTS
+from .description import LEVEL_GRAVITY, MOST_JOINTS
 from .frames import nearest_rotation, rotation_to
 from .inertia import transform_body
+from .link_data import MOST_FRAMES
 from .model import Ball, Joint, JointKind, Link, NamedFrame, RobotModel
 from .urdf_document import MOVING_KINDS, UrdfDocument, UrdfJoint, read_urdf_document
 from .urdf_elements import child

@@ -4,7 +4,7 @@ The names are those of the published file `residuals.parquet`; what a reader ask
 joint's number.
 """
 
-LOG, TIME, HELD_OUT, USED = "log", "time", "held_out", "used"
+LOG, TIME, HELD_OUT, USED, REVERSAL = "log", "time", "held_out", "used", "reversal"
 MEASURED = ("position", "velocity", "torque_measured", "torque_filtered")
 PREDICTED = ("torque_estimated", "residual")
 EXTENDED = ("torque_estimated_after", "residual_after")

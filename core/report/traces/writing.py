@@ -21,10 +21,11 @@ from ...regressor.columns import ColumnPlan
 from ...regressor.observe import compare
 from ...robot.model import RobotModel
 from ...signals.parallel import Tile
-from .layout import EXTENDED, HELD_OUT, LOG, MEASURED, PREDICTED, TIME, USED, column, unit
+from .layout import EXTENDED, HELD_OUT, LOG, MEASURED, PREDICTED, REVERSAL, TIME, USED, column, unit
 
 TILES_TOGETHER = 32
 """Tiles of one group of rows: 16384 rows at most."""
+_MARKS = {USED: "whether it is used", REVERSAL: "whether it is beside a reversal, and not scored"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +104,11 @@ def _rows(tile: Tile, models: tuple[_Model, ...], *, log: int, held_out: bool) -
             for signal, table in series.items()
             for joint, values in enumerate(table.T, start=1)
         },
-        **{column(USED, joint): used for joint, used in enumerate(tile.usable.T, start=1)},
+        **{
+            column(mark, joint): own
+            for mark, table in ((USED, tile.usable), (REVERSAL, tile.turning))
+            for joint, own in enumerate(table.T, start=1)
+        },
     }
 
 
@@ -121,7 +126,8 @@ def _schema(robot: RobotModel, *, extended: bool) -> pa.Schema:
             for joint in joints
         ),
         *(
-            pa.field(column(USED, joint), pa.bool_(), metadata={"meaning": "whether it counts"})
+            pa.field(column(mark, joint), pa.bool_(), metadata={"meaning": meaning})
+            for mark, meaning in _MARKS.items()
             for joint in joints
         ),
     ]
