@@ -2,15 +2,17 @@
 
 A planar arm of two joints by its closed equations, sticking Coulomb friction as a complementarity
 problem, and a position loop that sees the quantised encoder. The log's torque is the commanded one, so
-that an error of the encoder is in the torque as in the positions. Sources: Spong, Hutchinson &
-Vidyasagar, Robot Modeling and Control (2006), ch. 7, for the equations; Moreau, Unilateral Contact and
-Dry Friction (1988), for friction.
+that an error of the encoder is in the torque as in the positions. Loops are slow or stiff and encoders fine
+or coarse: the stiffer the one and the coarser the other, the more of its error goes round. Sources: Spong,
+Hutchinson & Vidyasagar, Robot Modeling and Control (2006), ch. 7, for the equations; Moreau, Unilateral
+Contact and Dry Friction (1988), for friction.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from tests.plant.sensors import noise as draw_noise
 from veritorque.core.log.model import JointLog
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.description import robot_from_description
@@ -18,17 +20,19 @@ from veritorque.core.robot.model import RobotModel
 
 STEP, CYCLE, RATE_HZ = 2.5e-4, 1e-3, 250.0
 """Seconds of an integration step and of a cycle of the controller; rate of the log."""
-COUNTS = 2**21
-"""Encoder counts per turn."""
+COUNTS = (2**19, 2**20, 2**21)
+"""Encoder counts per turn, one of which is drawn."""
+LOOP_HZ = (8.0, 25.0)
+"""Lowest and highest bandwidth of a position loop."""
 LINK, GRAVITY = 0.5, 9.81
 """Length of the first link, m, and gravity against y, m/s2."""
-HIGHEST_HZ = {"smooth": 1.0, "rich": 6.0}
-"""Highest frequency of the motion."""
+HIGHEST_HZ = {"smooth": (0.4, 1.0), "rich": (3.0, 6.0)}
+"""Lowest and highest limit of the motion's frequencies."""
 NOW = 0.625
 """Share in a row's torque of the cycle that begins, the rest being the last one's: both lie about the row."""
 SWEEPS = 20
-NOISE_SHARE, SECONDS = 0.002, 20.0
-"""RMS of the white torque noise over the torque's, and length of a log."""
+NOISE_SHARE, SECONDS = (0.002, 0.01), 30.0
+"""Lowest and highest RMS of the torque noise over the torque's, and length of a log."""
 
 
 @dataclass(frozen=True)
@@ -86,16 +90,31 @@ class Reference:
         )
 
 
+@dataclass(frozen=True)
+class Drive:
+    """Hold the bandwidth of the position loop (Hz) and the encoder's step (rad)."""
+
+    loop_hz: float
+    step: float
+
+
 def draw_second(
-    seed: int, motion: str, *, noise: float = NOISE_SHARE, finer: float = 1.0
+    seed: int, motion: str, noise: str = "white", *, finer: float = 1.0
 ) -> tuple[RobotModel, JointLog]:
-    """Draw a clean log with `smooth` or `rich` motion; an encoder may be `finer` than usual."""
+    """Draw a clean log with `smooth` or `rich` motion and a kind of noise; an encoder may be `finer`."""
     rng = np.random.default_rng([seed, 77])
-    body, reference = _body(rng), _reference(rng, HIGHEST_HZ[motion])
-    position, torque = _simulate(body, reference, SECONDS, 2.0 * np.pi / (COUNTS * finer))
-    torque = torque + noise * torque.std(axis=0) * rng.normal(size=torque.shape)
+    body, reference = _body(rng), _reference(rng, _between(rng, HIGHEST_HZ[motion]))
+    drive = Drive(_between(rng, LOOP_HZ), 2.0 * np.pi / (float(rng.choice(COUNTS)) * finer))
+    position, torque = _simulate(body, reference, SECONDS, drive)
+    size = _between(rng, NOISE_SHARE) * torque.std(axis=0)
+    torque = torque + size * draw_noise(noise, torque.shape, RATE_HZ, rng)
     time = np.arange(len(position)) / RATE_HZ
-    return robot(), log_from_arrays(f"second_{motion}_{seed}", time, position, torque)
+    return robot(), log_from_arrays(f"second_{motion}_{noise}_{seed}", time, position, torque)
+
+
+def _between(rng: np.random.Generator, ends: tuple[float, float]) -> float:
+    """Draw a number, evenly in its logarithm."""
+    return float(np.exp(rng.uniform(*np.log(ends))))
 
 
 def robot() -> RobotModel:
@@ -126,15 +145,15 @@ def _reference(rng: np.random.Generator, highest_hz: float) -> Reference:
 
 
 def _simulate(
-    body: Body, reference: Reference, seconds: float, count: float
+    body: Body, reference: Reference, seconds: float, drive: Drive
 ) -> tuple[np.ndarray, np.ndarray]:
     """Run loop and arm; give the encoder's angles and the commanded torque at the log's rate."""
     angle, _, _ = reference.at(0.0)
     rate, command, friction, seen = np.zeros(2), np.zeros(2), np.zeros(2), angle
-    last = command
+    last, count, loop = command, drive.step, 2.0 * np.pi * drive.loop_hz
     cycle, row = round(CYCLE / STEP), round(1.0 / (RATE_HZ * STEP))
-    stiffness = np.diag(body.mass(np.array([0.0, 1.0]))) * (2.0 * np.pi * 8.0) ** 2
-    damping = 1.6 * stiffness / (2.0 * np.pi * 8.0)
+    stiffness = np.diag(body.mass(np.array([0.0, 1.0]))) * loop**2
+    damping = 1.6 * stiffness / loop
     rows = []
     for step in range(round(seconds / STEP)):
         if step % cycle == 0:
