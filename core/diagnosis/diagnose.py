@@ -24,9 +24,9 @@ from .checks.findings import finding, sample_finding
 from .checks.holdout_outliers import Explained, has_holdout_outliers, with_other_holdout, with_typical_holdout
 from .checks.kurtosis import bounded_residual
 from .checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
-from .dataset.dataset import Dataset, build_dataset
+from .dataset.dataset import Dataset, build_dataset, refuse_too_little
 from .residual.atlas import atlas
-from .residual.learner import Predictable, predictable_share, refuse_too_little
+from .residual.learner import Predictable, predictable_share
 from .result import Diagnosis, Finding, NotIdentifiable, UnnamedPattern, Verdict
 from .search.fitter import HypothesisFitter, hypothesis_fitter
 from .search.hypothesis import Candidate
@@ -66,11 +66,11 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     Raises
     ------
     ExcitationError
-        If the logs are too short to hold anything out.
+        If the logs hold too little motion for a fit.
     """
     tell = progress or _no_progress
     faults, dataset = _check_samples(problem)
-    refuse_too_little(dataset.clear)
+    refuse_too_little(dataset, problem.plan)
     found = _search_causes(_fitter(problem, dataset), tell)
     tell("compare alternatives", 0.6)
     found, comparisons = _compare(found)

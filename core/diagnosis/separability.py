@@ -84,9 +84,7 @@ def separability(problem: DiagnosisProblem) -> Separability:
     ExcitationError
         If no row is left to judge by.
     """
-    dataset = build_dataset(
-        problem.model, problem.logs, held_out=problem.held_out, blocks=problem.blocks, width=SEPARATION.width
-    )
+    dataset = build_dataset(problem.model, problem.logs, held_out=problem.held_out, blocks=problem.blocks)
     fitter = hypothesis_fitter(dataset, problem.plan, [each for each in CAUSES if not each.traits.transient])
     plain = fitter.fit(())
     fitter = fitter.linearised_at(plain)

@@ -174,6 +174,25 @@ def build_dataset(
     )
 
 
+def refuse_too_little(dataset: Dataset, plan: ColumnPlan) -> None:
+    """Refuse a data set in which no joint has rows enough to fit its columns.
+
+    Raises
+    ------
+    ExcitationError
+        If no joint has.
+    """
+    rows = (dataset.clear & ~dataset.held_out[:, None]).sum(axis=0)
+    needed = np.array([ROWS.per_column * len(columns) for columns in plan.columns_of])
+    if (rows < needed).all():
+        raise ExcitationError(
+            "the log holds too little motion for a diagnosis: no joint has enough instants away from "
+            "standstill and reversals",
+            evidence={"instants": rows.tolist(), "needed": needed.tolist()},
+            remedy="record at least ten seconds in which every joint moves, at 100 Hz or more",
+        )
+
+
 def _segments(motions: Sequence[Motion], robot: RobotModel, seconds: list[float]) -> list[DatasetSegment]:
     """Cut all motions into segments, as many as the data set may hold of logs of so many seconds."""
     share = min(1.0, ROWS.seconds / sum(seconds))

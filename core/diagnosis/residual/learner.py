@@ -12,9 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays import Indices, JointMask, JointSeries, Matrix, Vector
+from ...arrays import Indices, JointSeries, Matrix, Vector
 from ...dynamics.prediction import Prediction
-from ...errors import ExcitationError
 from ..dataset.dataset import Dataset
 from ..regression.ar_noise import ARNoise
 from ..thresholds.residual import PREDICTION
@@ -70,15 +69,10 @@ def predictable_share(
         Measured minus predicted torque at the data set's rows, N m or N.
     noise
         Noise model per joint; its correlation length is the gap between fitted and held-out rows.
-
-    Raises
-    ------
-    ExcitationError
-        If every joint has too few rows to hold any out.
     """
     # Next to reversals the sign of a measured velocity is not friction's direction, which leaves structure.
     mask = dataset.clear
-    rows = refuse_too_little(mask)
+    rows = mask.sum(axis=0)
     block, shared = row_blocks(dataset), _shared_features(dataset)
     found = []
     for joint in range(dataset.joints):
@@ -93,27 +87,8 @@ def predictable_share(
     return tuple(found)
 
 
-def refuse_too_little(mask: JointMask) -> Indices:
-    """Count the rows that a mask (rows x joints) leaves of every joint, and refuse if no joint has enough.
-
-    Raises
-    ------
-    ExcitationError
-        If every joint has too few rows to hold any out.
-    """
-    rows = mask.sum(axis=0)
-    if rows.max() < PREDICTION.least_rows:
-        raise ExcitationError(
-            "the log holds too little motion to hold any of it out: no joint has enough instants away from "
-            "standstill and reversals",
-            evidence={"instants": rows.tolist(), "needed": PREDICTION.least_rows},
-            remedy="record at least ten seconds in which every joint moves, at 100 Hz or more",
-        )
-    return np.asarray(rows)
-
-
 def _not_judged(joint: int, rows: int) -> Predictable:
-    """Give the result of a joint that hardly moves: not a number."""
+    """Give the result of a joint with too few rows to tell: not a number."""
     return Predictable(joint, np.nan, (np.nan, np.nan), np.nan, (), np.full(rows, np.nan))
 
 

@@ -60,8 +60,6 @@ class Unnamed:
 class Separation:
     """Decide which causes a log can tell apart, before any is searched for. All are set by hand."""
 
-    width: float = 20.0
-    """Ratio of the band to the motion's: half that of a diagnosis, because rows cost time."""
     scalars: int = 3
     """Values of a cause's scalars that are tried, from its whole grid."""
 

@@ -48,6 +48,8 @@ class Rows:
 
     seconds: float = 120.0
     """Seconds of all logs together that are used, and of every segment that are examined for jitter."""
+    per_column: int = 5
+    """Rows of a joint per column of its model, on some joint at least; with fewer a fit follows the noise."""
     stretch_seconds: float = 30.0
     """Seconds of one stretch of a long log."""
     settling_periods: float = 3.0

@@ -24,7 +24,7 @@ class Prediction:
     quantiles: int = 63
     """Quantiles of a coordinate at which trees may split."""
     least_rows: int = 200
-    """Rows of a joint from which on it is judged; a log in which no joint has them is refused."""
+    """Rows of a joint from which on it is judged."""
     longest_gap: float = 0.5
     """Blocks between rows learned from and rows judged at most: slower noise is no different from drift."""
     uncorrelated: float = 0.1

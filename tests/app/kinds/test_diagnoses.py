@@ -80,8 +80,11 @@ def one_slow_way(time, position, torque):
 
 
 TOO_LITTLE = {
-    "three seconds": measured(seconds=3.0),
+    "a second and a half": measured(seconds=1.5),
     "at rest": measured(at_rest),
+}
+LITTLE = {
+    "three seconds": measured(seconds=3.0),
     "25 samples a second": measured(seconds=30.0, rate_hz=25.0),
 }
 
@@ -90,8 +93,18 @@ TOO_LITTLE = {
 def test_a_log_with_too_little_motion_to_hold_any_out_is_refused_with_what_would_do(client, log):
     problem = refused(client, log)
     assert problem["type"] == "urn:veritorque:problem:excitation"
-    assert max(problem["evidence"]["instants"]) < problem["evidence"]["needed"]
+    evidence = problem["evidence"]
+    assert all(had < needed for had, needed in zip(evidence["instants"], evidence["needed"], strict=True))
     assert "at least ten seconds in which every joint moves, at 100 Hz or more" in problem["remedy"]
+
+
+@pytest.mark.parametrize("log", LITTLE.values(), ids=LITTLE.keys())
+def test_a_log_with_little_motion_is_diagnosed_and_what_it_cannot_tell_is_unknown(client, log):
+    _, result = diagnosed(client, log)
+    assert result["diagnosis"]["findings"] == []
+    left = result["diagnosis"]["unexplained"]
+    assert None in left["predictable_residual_fraction"]
+    assert [None, None] in left["interval_95"]
 
 
 def test_what_a_parked_joint_could_not_show_is_listed_with_the_motion_that_would(client):
