@@ -14,6 +14,7 @@ from ..arrays import BlockKey, JointSeries
 from ..dynamics.model import DynamicModel
 from ..identification.reference import Reference
 from ..log.model import JointLog
+from ..log.shifted import with_later_effort
 from ..regressor.columns import ColumnPlan
 from .bandwidth import Fitted, limit_bandwidth
 from .causes.registry import AGAINST_REFERENCE, CAUSES, SAMPLE_CHECKS
@@ -28,6 +29,7 @@ from .dataset.dataset import Dataset, build_dataset, refuse_too_little
 from .residual.atlas import atlas
 from .residual.learner import Predictable, predictable_share
 from .result import Diagnosis, Finding, NotIdentifiable, UnnamedPattern, Verdict
+from .search.alignment import restart_from_alignment
 from .search.fitter import HypothesisFitter, hypothesis_fitter
 from .search.hypothesis import Candidate
 from .search.likelihood_ratio import likelihood_ratio, log_p
@@ -72,6 +74,7 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     faults, dataset = _check_samples(problem)
     refuse_too_little(dataset, problem.plan)
     found = _search_causes(_fitter(problem, dataset), tell)
+    found = restart_from_alignment(found, partial(_later_torque, problem, dataset.width))
     tell("compare alternatives", 0.6)
     found, comparisons = _compare(found)
     fitter, chosen, dataset = found.fitter, found.chosen, found.fitter.dataset
@@ -139,6 +142,14 @@ def _search(
         again = confirm(ordinary, found, progress) or search_stepwise(ordinary, progress, start)
         found = restart_from_common_cause(again)
     return restart_at_operating_point(found)
+
+
+def _later_torque(problem: DiagnosisProblem, width: float, seconds: float) -> JointSeries:
+    """Give the torque of a data set of some width, taken so many seconds later."""
+    logs = tuple(with_later_effort(log, seconds) for log in problem.logs)
+    return build_dataset(
+        problem.model, logs, held_out=problem.held_out, blocks=problem.blocks, width=width
+    ).torque
 
 
 def _compare(found: SearchState) -> tuple[SearchState, list[Comparison]]:

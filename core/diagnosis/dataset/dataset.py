@@ -67,8 +67,9 @@ class Dataset:
     sticking: tuple[csr_array, ...]
     """Per joint, nuisance columns: any friction while the joint is practically at rest."""
     band_hz: float
-    """Cut-off of the parallel filter; `motion_band_hz` that of the motion."""
     motion_band_hz: float
+    width: float
+    """Cut-off of the parallel filter, that of the motion, and the ratio of the two that was asked for."""
     position_share: JointVector
     """Per joint, the share of the white residual's mean square that noise of the positions has."""
     position_torque: JointSeries
@@ -169,6 +170,7 @@ def build_dataset(
         sticking=_join_sticking(parts),
         band_hz=max(motion.recipe.cutoff_hz for motion in motions),
         motion_band_hz=max(motion.recipe.motion_band_hz for motion in motions),
+        width=width,
         position_share=np.zeros(len(model.robot.joints)),
         position_torque=np.zeros_like(series["torque"]),
     )

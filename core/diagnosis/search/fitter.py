@@ -13,7 +13,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from ...arrays import Indices
+from ...arrays import Indices, JointSeries
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import LinearisedTerm
 from ...estimate.gaussian_prior import GaussianPrior
@@ -88,6 +88,15 @@ class HypothesisFitter:
             earlier=self._latest_cache,
             _fixed_columns=self._fixed_columns,
         )
+
+    def with_torque(self, torque: JointSeries) -> "HypothesisFitter":
+        """Give a fitter of the same rows with another torque, for fits; its candidates stay as they are."""
+
+        def replaced(rows: tuple[JointRows, ...]) -> tuple[JointRows, ...]:
+            return tuple(replace(one, torque=torque[one.rows, joint]) for joint, one in enumerate(rows))
+
+        rows = FitRows(*map(replaced, (self.rows.fitted, self.rows.held_out, self.rows.everywhere)))
+        return replace(self, dataset=replace(self.dataset, torque=torque), rows=rows)
 
     @property
     def operating_point(self) -> Prediction:

@@ -43,6 +43,16 @@ class Entry:
 
 
 @dataclass(frozen=True)
+class Alignment:
+    """Search the delay of all torques by shifting them. All are set by hand."""
+
+    seconds: tuple[float, ...] = (-0.04, -0.02, -0.01, -0.005, 0.0, 0.005, 0.01, 0.02, 0.04)
+    """Delays, s, that are tried first: up to nearly the largest that is admissible."""
+    tolerance: float = 2e-4
+    """Seconds to which the likeliest is refined; its column does the rest."""
+
+
+@dataclass(frozen=True)
 class Holdout:
     """Judge a cause by rows that no fit has used. All are set by hand unless a source is named."""
 
@@ -127,5 +137,5 @@ class Refinement:
     """Fall of twice the log-likelihood over one step from which on its curvature is read."""
 
 
-SELECTION, ENTRY, HOLDOUT = Selection(), Entry(), Holdout()
+SELECTION, ENTRY, HOLDOUT, ALIGNMENT = Selection(), Entry(), Holdout(), Alignment()
 MASKING, SEARCH, REFINEMENT = Masking(), Search(), Refinement()

@@ -1,0 +1,62 @@
+"""Restart a search from the delay at which torques and positions fit together, found by shifting the torque.
+
+A column of first order is the predicted torque's change, and the prediction is the model's as fitted to the
+delayed log. Where all torques are late by many milliseconds and friction is large, that model is far off, and
+filters or springs fit better than the delay. The measured torque itself can be shifted. It shows the delay at
+which the model fits best, and the model there, from which the columns are right. Source: Ljung, System
+Identification (1999), ch. 7 and 10, on profiles of what is not linear.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from ...arrays import JointSeries
+from ..causes.masking import excludes, masks
+from ..causes.time_delay import TimeDelay
+from ..thresholds.search import ALIGNMENT, SELECTION
+from .likelihood_ratio import likelihood_ratio
+from .restarts import bic
+from .state import SearchState
+from .stepwise import continue_search
+
+Later = Callable[[float], JointSeries]
+"""Gives the data set's torque, taken so many seconds later."""
+
+
+def restart_from_alignment(found: SearchState, later: Later) -> SearchState:
+    """Give the better of a search and its restart from the exact delay, which members may stand for."""
+    hiding = {*masks(TimeDelay.id), *excludes(TimeDelay.id)}
+    kept = tuple(member for member in found.chosen.members if member.cause.id not in {*hiding, TimeDelay.id})
+    if all(member.cause.id not in hiding for member in found.chosen.members):
+        return found
+    fitter = found.fitter.linearised_at(found.fitter.fit(kept))
+    without = fitter.fit(kept)
+
+    def shifted(seconds: float) -> SearchState:
+        own = fitter.with_torque(later(seconds))
+        return found.at(own, own.fit(kept))
+
+    def lost(seconds: float) -> float:
+        return -shifted(seconds).chosen.fit.log_likelihood
+
+    steps = ALIGNMENT.seconds
+    coarse = [lost(seconds) for seconds in steps]
+    best = int(np.argmin(coarse))
+    around = steps[max(best - 1, 0)], steps[min(best + 1, len(steps) - 1)]
+    delay = float(
+        minimize_scalar(lost, bounds=around, method="bounded", options={"xatol": ALIGNMENT.tolerance}).x
+    )
+    there = fitter.linearised_at(shifted(delay).chosen)
+    candidates = there.at.of_kind((TimeDelay.id, ()))
+    if not candidates:
+        return found
+    start = there.fit((*kept, replace(candidates[0], scalars={"around": delay})))
+    brings = likelihood_ratio(without, start)
+    if not start.admissible or brings < SELECTION.undecided:
+        return found
+    begun = found.at(there, start).recorded("swapped", start.members[-1], brings)
+    other = continue_search(replace(begun, excluded={}), known=found.through)
+    return other if bic(other.chosen) > bic(found.chosen) + SELECTION.undecided else found
