@@ -17,10 +17,12 @@ from ..log.model import JointLog
 from ..log.shifted import with_later_effort
 from ..regressor.columns import ColumnPlan
 from .bandwidth import Fitted, limit_bandwidth
+from .causes.external_contact import ExternalContact
 from .causes.registry import AGAINST_REFERENCE, CAUSES, SAMPLE_CHECKS
 from .checks.alternatives import Comparison, compare_alternatives
 from .checks.bursts import burst
 from .checks.change_points import switching_candidates
+from .checks.contact_at_rest import contacts_at_rest
 from .checks.findings import finding, sample_finding
 from .checks.holdout_outliers import Explained, has_holdout_outliers, with_other_holdout, with_typical_holdout
 from .checks.kurtosis import bounded_residual
@@ -193,6 +195,8 @@ def _check_samples(problem: DiagnosisProblem) -> tuple[list[Finding], Dataset]:
         for check in SAMPLE_CHECKS
         for fault in check.examine(wide, operating_point)
     ]
+    pushes = contacts_at_rest(wide, operating_point)
+    faults += [sample_finding(ExternalContact(), push, wide) for push in pushes]
     return faults, with_typical_holdout(dataset, plain[-1], partial(_plain_fit, problem))
 
 

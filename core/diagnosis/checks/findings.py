@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...arrays import JointSeries
+from ..causes.protocol import Cause
 from ..causes.sample_check import SampleCheck, SampleFinding
 from ..dataset.dataset import Dataset
 from ..result import Evidence, Finding
@@ -120,7 +121,7 @@ def _fraction(left: tuple[JointSeries, JointSeries], mask: np.ndarray, joints: S
     return float(np.max(1.0 - sums[1] / np.maximum(sums[0], 1e-300)))
 
 
-def sample_finding(cause: SampleCheck, found: SampleFinding, dataset: Dataset) -> Finding:
+def sample_finding(cause: SampleCheck | Cause, found: SampleFinding, dataset: Dataset) -> Finding:
     """Compose the finding of a sample check."""
     sure = 1.0 - found.p_value
     return Finding(

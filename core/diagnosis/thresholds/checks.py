@@ -99,5 +99,21 @@ class Size:
     """Share of a joint's RMS torque, left by model and findings, from which on the model does not fit it."""
 
 
-SIZE, SEPARATION = Size(), Separation()
+@dataclass(frozen=True)
+class AtRest:
+    """Find pushes on an arm that stands. All are set by hand."""
+
+    deviations: float = 6.0
+    """Standard deviations of a joint's residual in motion by which torque has to change beyond friction."""
+    still_share: float = 0.03
+    """Share of every joint's RMS speed below which the arm stands, though it may still settle."""
+    settling_rows: int = 4
+    """Rows at either end of a stand in which the filter settles."""
+    edge_rows: int = 2
+    """Rows at either end, at least, whose median is the torque without a push."""
+    least_rows: int = 8
+    """Rows of a stand that can be judged."""
+
+
+SIZE, SEPARATION, AT_REST = Size(), Separation(), AtRest()
 ALTERNATIVES, VERDICT, UNNAMED, CONFIDENCE = Alternatives(), Verdict(), Unnamed(), Confidence()
