@@ -35,6 +35,7 @@ from .search.alignment import restart_from_alignment
 from .search.fitter import HypothesisFitter, hypothesis_fitter
 from .search.hypothesis import Candidate
 from .search.likelihood_ratio import likelihood_ratio, log_p
+from .search.motion_band import drop_what_motion_does_not_show
 from .search.residuals import residual, stiction_share
 from .search.restarts import restart_at_operating_point, restart_from_common_cause
 from .search.state import SearchState
@@ -76,7 +77,8 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     faults, dataset = _check_samples(problem)
     refuse_too_little(dataset, problem.plan)
     found = _search_causes(_fitter(problem, dataset), tell)
-    found = restart_from_alignment(found, partial(_later_torque, problem, dataset.width))
+    found = restart_from_alignment(found, lambda seconds: _dataset(problem, dataset.width, seconds).torque)
+    found = drop_what_motion_does_not_show(found, partial(_dataset, problem))
     tell("compare alternatives", 0.6)
     found, comparisons = _compare(found)
     fitter, chosen, dataset = found.fitter, found.chosen, found.fitter.dataset
@@ -146,12 +148,10 @@ def _search(
     return restart_at_operating_point(found)
 
 
-def _later_torque(problem: DiagnosisProblem, width: float, seconds: float) -> JointSeries:
-    """Give the torque of a data set of some width, taken so many seconds later."""
-    logs = tuple(with_later_effort(log, seconds) for log in problem.logs)
-    return build_dataset(
-        problem.model, logs, held_out=problem.held_out, blocks=problem.blocks, width=width
-    ).torque
+def _dataset(problem: DiagnosisProblem, width: float, later: float = 0.0) -> Dataset:
+    """Give the data set of a width, its torque taken so many seconds later."""
+    logs = tuple(with_later_effort(log, later) for log in problem.logs)
+    return build_dataset(problem.model, logs, held_out=problem.held_out, blocks=problem.blocks, width=width)
 
 
 def _compare(found: SearchState) -> tuple[SearchState, list[Comparison]]:

@@ -15,7 +15,7 @@ from ..causes.imitation import imitations
 from ..causes.masking import excludes
 from ..result import Alternative, Gain
 from ..search.confounding import is_masked_by_last, keeps_beside
-from ..search.entry_test import passes_holdout, with_candidate
+from ..search.entry_test import begins_within, passes_holdout, with_candidate
 from ..search.fitter import HypothesisFitter
 from ..search.holdout import holdout_share
 from ..search.hypothesis import Candidate, Hypothesis
@@ -209,6 +209,8 @@ def _objection(fitter: HypothesisFitter, without: Hypothesis, trial: Hypothesis)
     """Say why an alternative cannot take a finding's place; empty where it can."""
     if not trial.admissible:
         return "fits only with a sign or size that is not physically admissible"
+    if not begins_within(fitter, trial.members[-1]):
+        return "would act from the log's beginning, and so throughout"
     return "" if passes_holdout(fitter, without, trial) else "does not help on held-out data"
 
 

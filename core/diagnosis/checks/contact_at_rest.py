@@ -41,7 +41,9 @@ def contacts_at_rest(dataset: Dataset, operating_point: Prediction) -> tuple[Sam
         return ()
     ((joint, link),) = links.items()
     left = torque_residual(dataset, operating_point)
-    noise = np.sqrt(np.mean(left**2, axis=0, where=dataset.clear))
+    rows = dataset.clear.sum(axis=0)
+    squares = np.sum(left**2, axis=0, where=dataset.clear)
+    noise = np.sqrt(np.divide(squares, rows, out=np.full(len(rows), np.inf), where=rows > 0))
     limits = 2.0 * _coulomb_levels(operating_point) + AT_REST.deviations * noise
     units = tuple(joint_unit(dataset.robot, number + 1, "N m") for number in range(dataset.joints))
     scale = Scale(noise, limits, units)

@@ -1,7 +1,7 @@
 """Build the data set of a diagnosis: filtered rows of a wider band than the fit's, kept in memory.
 
 An identification filters as low as the motion allows. A diagnosis needs the content above (gear ripple,
-compliance, delays), so its parallel filter passes fifteen times the motion's bandwidth, a twelfth of the rate
+compliance, delays), so its parallel filter passes twenty times the motion's bandwidth, a twelfth of the rate
 at most. Rows within the filter's main lobe of a velocity reversal are marked: there the sign of a measured
 velocity is not the direction of friction. Of long logs evenly spread stretches are used.
 """

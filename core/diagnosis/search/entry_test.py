@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..causes.masking import excludes
+from ..thresholds.causes import EVENTS
 from ..thresholds.search import ENTRY, HOLDOUT, SEARCH
 from .confounding import is_masked
 from .fitter import HypothesisFitter
@@ -80,7 +81,8 @@ def _significant(
             continue
         trial = with_candidate(fitter, now, scored)
         gains = bic_gain(now, trial)
-        if trial.admissible and gains > least and _passes_entry_test(fitter, now, trial, kinds):
+        fits = trial.admissible and gains > least and begins_within(fitter, trial.members[-1])
+        if fits and _passes_entry_test(fitter, now, trial, kinds):
             likely.append(trial)
             best = best if scored.candidate.cause.traits.transient else max(best, gains)
     return sorted(likely, key=lambda trial: -bic_gain(now, trial)), left
@@ -119,6 +121,12 @@ def _passes_entry_test(
     return is_significant(fitter, now, trial, kinds, index=index) or _is_independent(
         fitter, now, trial, kinds, index
     )
+
+
+def begins_within(fitter: HypothesisFitter, member: Candidate) -> bool:
+    """Tell whether a member with an onset begins within the log: otherwise it acts throughout."""
+    first = float(fitter.dataset.time.min()) + EVENTS.shortest
+    return all(member.scalars[name] > first for name in member.cause.traits.onset if name in member.scalars)
 
 
 def passes_exit_test(fitter: HypothesisFitter, without: Hypothesis, now: Hypothesis, index: int) -> bool:

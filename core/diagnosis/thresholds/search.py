@@ -23,6 +23,9 @@ class Entry:
     """Probability, beside another cause, whose columns are not exact."""
     event_level: float = 1e-6
     """Probability, for a cause in short spans: it is searched where the noise is largest."""
+    confirmed: float = 0.01
+    """Probability, in the motion's own band, for a cause that position noise resembles and that entered in
+    the wider one."""
     rare: float = 0.1
     """Share of a joint's rows below which a cause counts as one in short spans."""
     unchanged: float = 0.9

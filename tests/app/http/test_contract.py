@@ -26,6 +26,7 @@ from veritorque.app.settings import Settings
 from veritorque.app.store.logs import log_id as id_of_log
 from veritorque.app.version import VERSION
 from veritorque.core.robot import description as core_description
+from veritorque.core.robot import link_data
 
 ROOT = Path(__file__).parents[3]
 OPENAPI = create_app().openapi()
@@ -145,8 +146,8 @@ def test_the_documented_fields_of_a_robot_are_those_that_core_reads():
     assert fields("JointDescription") == set(both)
     assert fields("Limits") == set(core_description.LIMIT_FIELDS)
     assert fields("CouplingDescription") == set(core_description.COUPLING_FIELDS)
-    assert fields("LinkPrior") == set(core_description.PRIOR_FIELDS)
-    assert fields("StandardParameters") == set(core_description.SYMBOL_FIELDS)
+    assert fields("LinkPrior") == set(link_data.PRIOR_FIELDS)
+    assert fields("StandardParameters") == set(link_data.SYMBOL_FIELDS)
 
 
 def test_answers_follow_the_documented_models(client, robot_id, log_id):

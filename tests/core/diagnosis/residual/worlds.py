@@ -62,12 +62,16 @@ def drawn(kind: str, rng: np.random.Generator, samples: int, joints: int) -> np.
     return white
 
 
+WIDTH = 40.0
+"""Ratio of the band to the motion's at which the log's period of 12 s is a whole number of rows."""
+
+
 @cache
 def world() -> World:
     """Look at the shipped log, and believe what a fit to it finds."""
     model = standard_model(builtin_robot("yumi-left"))
     plan = ColumnPlan(model, base_model(model).kept)
-    dataset = build_dataset(model, (read_log(EXAMPLE),), held_out=frozenset(), blocks=20)
+    dataset = build_dataset(model, (read_log(EXAMPLE),), held_out=frozenset(), blocks=20, width=WIDTH)
     columns = dataset.observed(plan)
     found = fit(rows_of_joints(dataset, columns, dataset.clear))
     standard = np.zeros(len(model.parameters))
