@@ -10,6 +10,7 @@ from dataclasses import replace
 from typing import TypeVar
 
 from ..diagnosis.result import Diagnosis, Evidence, Finding
+from ..diagnosis.thresholds.checks import SIZE
 from ..errors import SolverError
 from .cure import enters
 from .gain import JointGain
@@ -23,7 +24,7 @@ def verify(
     tried: Callable[[Diagnosis], Answer],
     gained: Callable[[Answer, Answer], tuple[JointGain, ...]],
 ) -> tuple[Diagnosis, Answer | None]:
-    """Mark the findings without which the held-out blocks are predicted significantly worse.
+    """Mark the findings without which the held-out blocks are predicted significantly worse; doubt the rest.
 
     Gives the last identification with all verified findings as well, if there was one.
 
@@ -49,7 +50,18 @@ def verify(
         if shown := _gain_evidence(finding, gained(now, then)):
             findings[index] = replace(finding, proven=True, evidence=(*finding.evidence, *shown))
             diagnosis, now = replace(diagnosis, findings=tuple(findings)), then
-    return diagnosis, now
+    return replace(diagnosis, findings=tuple(map(_limited, diagnosis.findings))), now
+
+
+def _limited(finding: Finding) -> Finding:
+    """Limit the confidence of a finding that no held-out row shows: likely by its statistics alone.
+
+    Statistics take the rest of the model for true. Where something else is wrong, a cause may stand for a
+    part of that, significantly, and predict nothing.
+    """
+    if finding.member is None or enters(finding):
+        return finding
+    return replace(finding, confidence=min(finding.confidence, SIZE.doubtful))
 
 
 def _gain_evidence(finding: Finding, found: tuple[JointGain, ...]) -> tuple[Evidence, ...]:

@@ -9,6 +9,7 @@ from tests.core.diagnosis.scenes import measured_arm, skew_arm
 from tests.core.diagnosis.test_diagnose import diagnosed, hidden
 from veritorque.core import study
 from veritorque.core.diagnosis.result import Diagnosis
+from veritorque.core.diagnosis.thresholds.checks import SIZE
 from veritorque.core.errors import SolverError
 from veritorque.core.extension.result import Extension
 from veritorque.core.identification import identify
@@ -36,6 +37,7 @@ def test_a_cause_in_doubt_joins_the_model_where_unseen_motion_is_surely_predicte
     shown = one.evidence[-1]
     (gain,) = (gain for gain in found.gains if gain.joint == 2)
     assert one.proven
+    assert one.confidence == diagnosed(hidden).findings[0].confidence
     assert "joint 2" in shown.statement
     np.testing.assert_allclose(shown.value, gain.improvement_percent, rtol=0.05)
     assert gain.interval_95[0] > 0.0
@@ -68,6 +70,7 @@ def test_a_cause_in_doubt_joins_no_model_where_it_gains_nothing(monkeypatch):
     found = studied(monkeypatch, HARMLESS)
     assert found.after is None
     assert not found.diagnosis.findings[0].proven
+    assert found.diagnosis.findings[0].confidence == SIZE.doubtful < diagnosed(hidden).findings[0].confidence
     assert len(found.diagnosis.findings[0].evidence) == len(diagnosed(hidden).findings[0].evidence)
 
 

@@ -93,8 +93,8 @@ class Size:
     clearness: float = 1.0
     """Standard deviations that one of a cause's numbers has to differ from zero by at least."""
     doubtful: float = 0.5
-    """Probability that no finding exceeds while a conflict or more than half of a joint's torque is left, or
-    while an alternative explains more."""
+    """Probability that no finding exceeds while a conflict or more than half of a joint's torque is left,
+    while an alternative explains more, or while no held-out row shows a gain."""
     half: float = 0.5
     """Share of a joint's RMS torque, left by model and findings, from which on the model does not fit it."""
 
