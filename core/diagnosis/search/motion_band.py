@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...errors import ExcitationError
 from ..dataset.dataset import Dataset
 from ..thresholds.dataset import BAND
 from ..thresholds.search import ENTRY
@@ -40,7 +41,10 @@ def _weak(state: SearchState, at: At) -> int | None:
     doubtful = [place for place, one in enumerate(chosen.members) if one.cause.traits.like_position_noise]
     if not doubtful or fitter.dataset.width <= BAND.narrowest:
         return None
-    there = _fitter_on(at(BAND.narrowest), fitter)
+    try:
+        there = _fitter_on(at(BAND.narrowest), fitter)
+    except ExcitationError:  # stretches as short as the log's hold no row of so narrow a band
+        return None
     whole = there.fit(chosen.members)
     hurdle = float(np.log(ENTRY.confirmed))
     return next((place for place in doubtful if _chance(there, whole, place) > hurdle), None)
