@@ -22,6 +22,8 @@ from .restarts import bic
 from .state import SearchState
 from .stepwise import continue_search
 
+PARTS = (-1.0, -0.5, -0.25, -0.125, 0.0, 0.125, 0.25, 0.5, 1.0)
+"""Delays that are tried first, as parts of the largest."""
 Later = Callable[[float], JointSeries]
 """Gives the data set's torque, taken so many seconds later."""
 
@@ -42,7 +44,7 @@ def restart_from_alignment(found: SearchState, later: Later) -> SearchState:
     def lost(seconds: float) -> float:
         return -shifted(seconds).chosen.fit.log_likelihood
 
-    steps = ALIGNMENT.seconds
+    steps = [ALIGNMENT.furthest * part for part in PARTS]
     coarse = [lost(seconds) for seconds in steps]
     best = int(np.argmin(coarse))
     around = steps[max(best - 1, 0)], steps[min(best + 1, len(steps) - 1)]

@@ -49,8 +49,9 @@ class Entry:
 class Alignment:
     """Search the delay of all torques by shifting them. All are set by hand."""
 
-    seconds: tuple[float, ...] = (-0.04, -0.02, -0.01, -0.005, 0.0, 0.005, 0.01, 0.02, 0.04)
-    """Delays, s, that are tried first: up to nearly the largest that is admissible."""
+    furthest: float = 0.04
+    """Delay, s, of either sign that is tried first, with its half, quarter and eighth: nearly the largest
+    that is admissible."""
     tolerance: float = 2e-4
     """Seconds to which the likeliest is refined; its column does the rest."""
 
