@@ -32,6 +32,7 @@ NAMED = {
         "causes/torque_saturation": "SHARES",
         "checks/change_points": "SMOOTHED FAR",
         "checks/unnamed_pattern": "WAVES SLOWEST QUICKEST STEP FINER SWINGS",
+        "search/alignment": "PARTS",
         "search/profile_likelihood": "AROUND FINER",
     },
     "numerics": {
