@@ -27,12 +27,10 @@ def differentiate(values: JointSeries, rate_hz: float) -> InstantSeries:
     array([6., 8.])
     """
     count = len(values) - 2 * REACH
-
-    def apart(steps: int) -> InstantSeries:
-        later, earlier = values[REACH + steps :][:count], values[REACH - steps :][:count]
-        return np.asarray(later - earlier)
-
-    return np.asarray((45.0 * apart(1) - 9.0 * apart(2) + apart(3)) * (rate_hz / 60.0))
+    one, two, three = (
+        values[REACH + steps :][:count] - values[REACH - steps :][:count] for steps in range(1, REACH + 1)
+    )
+    return np.asarray((45.0 * one - 9.0 * two + three) * (rate_hz / 60.0))
 
 
 def differentiate_throughout(values: JointSeries, rate_hz: float) -> InstantSeries:
