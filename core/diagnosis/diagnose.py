@@ -156,8 +156,8 @@ def _dataset(problem: DiagnosisProblem, width: float, later: float = 0.0) -> Dat
 
 def _compare(found: SearchState) -> tuple[SearchState, list[Comparison]]:
     """Keep the causes that pass the comparison, and search for those that the dropped ones excluded."""
-    kept, comparisons = compare_alternatives(replace(found, excluded={}))
-    if kept.excluded:
+    kept, comparisons = compare_alternatives(found)
+    if len(kept.excluded) > len(found.excluded):
         more = continue_search(kept)
         if len(more.chosen.members) > len(kept.chosen.members):
             return compare_alternatives(more)

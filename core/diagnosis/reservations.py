@@ -24,7 +24,7 @@ def with_reservations(found: Diagnosis, *, open_conflict: bool, doubted: bool) -
         Whether the identification contradicts the model, the logs or itself.
     """
     failed = open_conflict or any(_joints_not_fitted(found))
-    findings = tuple(_limited(finding) if failed else finding for finding in found.findings)
+    findings = tuple(as_doubtful(finding) if failed else finding for finding in found.findings)
     claims_nothing = found.verdict == "nothing_found" and (failed or doubted)
     return replace(
         found,
@@ -35,7 +35,8 @@ def with_reservations(found: Diagnosis, *, open_conflict: bool, doubted: bool) -
     )
 
 
-def _limited(finding: Finding) -> Finding:
+def as_doubtful(finding: Finding) -> Finding:
+    """Give a finding no more confidence than a doubtful one may have."""
     return replace(finding, confidence=min(finding.confidence, SIZE.doubtful))
 
 

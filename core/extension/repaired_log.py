@@ -1,12 +1,10 @@
 """Give a log as it would have been without the faults that were found in its channels.
 
-Rows are corrected as they are read, so that a log's length costs no memory here either. Every stretch between
-gaps is corrected by itself; rows that stand for dropped samples go on repeating the row before.
+Rows that stand for dropped samples go on repeating the row before.
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, fields, replace
-from itertools import pairwise
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,16 +12,12 @@ from ..arrays import JointVector
 from ..diagnosis.causes.registry import BY_ID
 from ..diagnosis.causes.repairs import CorrectsLog
 from ..errors import LogError
+from ..log.corrected import FEWEST, CorrectedSource
 from ..log.model import JointLog, LogRows, rows_at
 from ..robot.model import RobotModel
 from ..signals.condition import effort_scale
 from ..signals.resample import dropped_mask
 from .repair import Repair
-
-NEIGHBOURS = 40
-"""Rows on either side that a spline is laid through; further ones change nothing."""
-FEWEST = 4
-"""Rows of a stretch that can be corrected."""
 
 
 def repaired_log(log: JointLog, robot: RobotModel, repairs: Iterable[Repair]) -> JointLog:
@@ -49,7 +43,7 @@ def repaired_log(log: JointLog, robot: RobotModel, repairs: Iterable[Repair]) ->
     if not corrections:
         return log
     reach = sum(int(np.ceil(cause.reach(repair.numbers) * log.rate_hz)) for repair, cause in corrections)
-    source = RepairedSource(log, effort_scale(log, robot), corrections, reach)
+    source = CorrectedSource(log, _Correction(effort_scale(log, robot), corrections).rows, reach)
     inner = tuple((start + reach, stop - reach) for start, stop in log.segments if stop - start > 2 * reach)
     if not inner:
         raise LogError(
@@ -74,31 +68,14 @@ def _sort_corrections(repairs: Iterable[Repair]) -> tuple[tuple[Repair, Corrects
 
 
 @dataclass(frozen=True, eq=False)
-class RepairedSource:
-    """Give the rows of a log as they were corrected."""
+class _Correction:
+    """Carry out all repairs of a log on a stretch without gaps."""
 
-    log: JointLog
     effort_scale: JointVector
     """Per joint, torque per unit of the logged effort."""
     corrections: tuple[tuple[Repair, CorrectsLog], ...]
-    reach: int
-    """Rows on either side that the repairs need."""
 
-    @property
-    def samples(self) -> int:
-        """Count the rows."""
-        return self.log.samples
-
-    def rows(self, start: int, stop: int) -> LogRows:
-        """Read and correct the rows from start up to, not including, stop."""
-        low, high = max(0, start - self.reach - NEIGHBOURS), min(self.samples, stop + self.reach + NEIGHBOURS)
-        read = self.log.source.rows(low, high)
-        borders = {border - low for segment in self.log.segments for border in segment if low < border < high}
-        cuts = sorted({0, high - low} | borders)
-        parts = [self._correct(rows_at(read, slice(*cut))) for cut in pairwise(cuts)]
-        return rows_at(_concatenate(parts), slice(start - low, stop - low))
-
-    def _correct(self, rows: LogRows) -> LogRows:
+    def rows(self, rows: LogRows) -> LogRows:
         """Correct a stretch without gaps; rows that repeat the row before do so again."""
         fresh = ~dropped_mask(rows)
         if np.count_nonzero(fresh) < FEWEST:
@@ -119,8 +96,3 @@ class RepairedSource:
         if rows.torque is not None or corrected.torque is None:
             return corrected
         return replace(corrected, torque=None, current=corrected.torque / self.effort_scale)
-
-
-def _concatenate(parts: list[LogRows]) -> LogRows:
-    channels = {field.name: [getattr(part, field.name) for part in parts] for field in fields(LogRows)}
-    return LogRows(**{name: np.concatenate(own) for name, own in channels.items() if own[0] is not None})

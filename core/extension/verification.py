@@ -9,8 +9,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar
 
+from ..diagnosis.reservations import as_doubtful
 from ..diagnosis.result import Diagnosis, Evidence, Finding
-from ..diagnosis.thresholds.checks import SIZE
 from ..errors import SolverError
 from .cure import enters
 from .gain import JointGain
@@ -50,18 +50,16 @@ def verify(
         if shown := _gain_evidence(finding, gained(now, then)):
             findings[index] = replace(finding, proven=True, evidence=(*finding.evidence, *shown))
             diagnosis, now = replace(diagnosis, findings=tuple(findings)), then
-    return replace(diagnosis, findings=tuple(map(_limited, diagnosis.findings))), now
+    return replace(diagnosis, findings=tuple(map(_doubted_unless_shown, diagnosis.findings))), now
 
 
-def _limited(finding: Finding) -> Finding:
+def _doubted_unless_shown(finding: Finding) -> Finding:
     """Limit the confidence of a finding that no held-out row shows: likely by its statistics alone.
 
     Statistics take the rest of the model for true. Where something else is wrong, a cause may stand for a
     part of that, significantly, and predict nothing.
     """
-    if finding.member is None or enters(finding):
-        return finding
-    return replace(finding, confidence=min(finding.confidence, SIZE.doubtful))
+    return finding if finding.member is None or enters(finding) else as_doubtful(finding)
 
 
 def _gain_evidence(finding: Finding, found: tuple[JointGain, ...]) -> tuple[Evidence, ...]:

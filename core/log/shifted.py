@@ -1,60 +1,33 @@
 """Give the rows of a log with the efforts of a little later: what a channel that lags shows only then."""
 
-from dataclasses import dataclass, replace
-from itertools import pairwise
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from ..arrays import JointSeries, Samples
-from .model import JointLog, LogRows, rows_at
-
-NEIGHBOURS = 40
-"""Rows on either side that a spline is laid through; further ones change nothing."""
-FEWEST = 4
-"""Rows of a stretch that can be shifted."""
+from ..arrays import JointSeries
+from .corrected import FEWEST, CorrectedSource
+from .model import JointLog, LogRows
 
 
 def with_later_effort(log: JointLog, seconds: float) -> JointLog:
     """Give every row the torque or current of so many seconds later; constant beyond a stretch's end."""
-    return log if seconds == 0.0 else replace(log, source=_ShiftedSource(log, seconds), sha256="")
+    if seconds == 0.0:
+        return log
+    reach = int(np.ceil(abs(seconds) * log.rate_hz))
+    return replace(log, source=CorrectedSource(log, partial(_later, seconds), reach), sha256="")
 
 
-@dataclass(frozen=True, eq=False)
-class _ShiftedSource:
-    log: JointLog
-    seconds: float
-
-    @property
-    def samples(self) -> int:
-        """Count the rows."""
-        return self.log.samples
-
-    def rows(self, start: int, stop: int) -> LogRows:
-        """Read the rows from start up to, not including, stop, every stretch between gaps by itself."""
-        reach = int(np.ceil(abs(self.seconds) * self.log.rate_hz)) + NEIGHBOURS
-        low, high = max(0, start - reach), min(self.samples, stop + reach)
-        read = self.log.source.rows(low, high)
-        borders = {border - low for segment in self.log.segments for border in segment if low < border < high}
-        cuts = sorted({0, high - low} | borders)
-        parts = [rows_at(read, slice(*cut)) for cut in pairwise(cuts)]
-        torque, current = (
-            None if getattr(read, name) is None else np.vstack([self._later(part, name) for part in parts])
-            for name in ("torque", "current")
-        )
-        return rows_at(replace(read, torque=torque, current=current), slice(start - low, stop - low))
-
-    def _later(self, rows: LogRows, channel: str) -> JointSeries:
-        values: JointSeries = getattr(rows, channel)
-        fresh = _advances(rows.time)
-        if np.count_nonzero(fresh) < FEWEST:
-            return values
-        time = rows.time[fresh]
-        then = np.clip(rows.time + self.seconds, time[0], time[-1])
-        return np.asarray(CubicSpline(time, values[fresh])(then))
+def _later(seconds: float, rows: LogRows) -> LogRows:
+    if len(rows.time) < FEWEST:
+        return rows
+    then = np.clip(rows.time + seconds, rows.time[0], rows.time[-1])
+    torque, current = (
+        None if values is None else _at(then, rows, values) for values in (rows.torque, rows.current)
+    )
+    return replace(rows, torque=torque, current=current)
 
 
-def _advances(time: Samples) -> np.ndarray:
-    """Mark the rows whose stamp is later than all before."""
-    before = np.concatenate([[-np.inf], np.maximum.accumulate(time)[:-1]])
-    return np.asarray(time > before)
+def _at(time: np.ndarray, rows: LogRows, values: JointSeries) -> JointSeries:
+    return np.asarray(CubicSpline(rows.time, values)(time))

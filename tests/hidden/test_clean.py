@@ -10,7 +10,7 @@ from tests.plant.second import draw_second
 
 @pytest.mark.slow
 def test_an_encoder_s_error_that_goes_round_the_loop_is_no_spring():
-    """With columns that hold the error, a spring is named on this log at 0.96."""
+    """Without the test in the motion's own band, a spring is named on this log."""
     robot, log = draw_second(710, "smooth", "white")
     found = answered(Case(robot, log, (), "white", np.zeros(2), "second", 710))
     assert found["verdict"] == "nothing_found"

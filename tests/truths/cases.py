@@ -7,7 +7,7 @@ off by five degrees or a quarter turn, a length that is wrong by a hand's breadt
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 
@@ -85,7 +85,7 @@ def cases(seed: int) -> Iterator[Case]:
 
     for name in ("ur10e", "tx40", "panda", "rokae", "pendulum", "emps"):
         late = float(rng.uniform(0.008, 0.019))
-        asked = known[name].changed(lambda log, late=late: change.delayed(log, late))  # type: ignore[misc]
+        asked = known[name].changed(partial(change.delayed, seconds=late))
         yield case(f"all torques late by {1e3 * late:.0f} ms", name, asked, ("time_delay", ()))
     yield from _described(known, rng)
     yield from _encoders(known, rng)
@@ -116,7 +116,7 @@ def _encoders(known: dict[str, Source], rng: np.random.Generator) -> Iterator[Ca
     """Turn encoders by a quarter turn or by some degrees."""
     for name, joint in (("panda", 4), ("ur10e", 3), ("rokae", 2)):
         angle = float(rng.choice([-0.5, 0.5])) * np.pi
-        asked = known[name].changed(lambda log, j=joint, a=angle: change.turned_encoder(log, j, a))  # type: ignore[misc]
+        asked = known[name].changed(partial(change.turned_encoder, joint=joint, angle=angle))
         yield Case(
             f"encoder {joint} off by {np.degrees(angle):+.0f} degrees",
             known[name],
@@ -125,7 +125,7 @@ def _encoders(known: dict[str, Source], rng: np.random.Generator) -> Iterator[Ca
         )
     for name, joint in (("rokae", 4), ("panda", 4)):
         angle = float(rng.choice([-1.0, 1.0]) * np.radians(rng.uniform(4.0, 8.0)))
-        asked = known[name].changed(lambda log, j=joint, a=angle: change.turned_encoder(log, j, a))  # type: ignore[misc]
+        asked = known[name].changed(partial(change.turned_encoder, joint=joint, angle=angle))
         yield Case(
             f"encoder {joint} off by {np.degrees(angle):+.1f} degrees",
             known[name],
@@ -138,11 +138,11 @@ def _bodies(known: dict[str, Source], rng: np.random.Generator) -> Iterator[Case
     """Add payloads, and push arms that stand."""
     for name in ("ur10e against", "panda against"):
         source, mass = known[name], float(rng.uniform(1.5, 3.5))
-        asked = source.changed(lambda log, s=source, m=mass: change.loaded(log, s.robot, m, PAYLOAD_CENTRE))  # type: ignore[misc]
+        asked = source.changed(partial(change.loaded, robot=source.robot, mass=mass, centre=PAYLOAD_CENTRE))
         yield Case(f"payload of {mass:.1f} kg", source, asked, (("payload_change", None),))
     for name, span, torque in (("ur10e standing", (24.9, 26.5), 100.0), ("tx40 standing", (7.9, 8.8), 60.0)):
         source = known[name]
-        asked = source.changed(lambda log, s=source, a=span, t=torque: change.pushed(log, s.robot, a, t))  # type: ignore[misc]
+        asked = source.changed(partial(change.pushed, robot=source.robot, span=span, torque=torque))
         yield Case(
             f"pushed with {torque:g} N m while it stands", source, asked, (("external_contact", None),)
         )

@@ -155,22 +155,28 @@ def loaded(log: JointLog, robot: RobotModel, mass: float, centre: Array) -> Join
 
 def pushed(log: JointLog, robot: RobotModel, span: tuple[float, float], torque: float) -> JointLog:
     """Push the last link between two instants (s), so that some joint has to hold so much (N m)."""
-    model = pinocchio_model(
-        robot, np.tile(from_mass_properties(1.0, np.zeros(3), np.eye(3)), (len(robot.links), 1))
-    )
-    data = model.createData()
 
     def added(rows: LogRows) -> Array:
+        unit = torque_of_unit_push(rows, robot, span)
         inside = (rows.time > span[0]) & (rows.time < span[1])
-        middle = rows.position[inside][inside.sum() // 2]
-        jacobian = pin.computeJointJacobian(model, data, middle, model.njoints - 1)
-        frame = data.oMi[model.njoints - 1].rotation
-        force = frame.T @ np.array([0.3, 0.4, -0.87])
-        unit = jacobian[:3].T @ force
         shape = np.sin(np.pi * (rows.time - span[0]) / (span[1] - span[0])) * inside
         return np.asarray(rows.torque - torque / np.max(np.abs(unit)) * shape[:, None] * unit)
 
     return with_torque(log, added)
+
+
+def torque_of_unit_push(rows: LogRows, robot: RobotModel, span: tuple[float, float]) -> Array:
+    """Give the joints' torque (N m) under a push of 1 N where the arm is in the middle of a span (s)."""
+    model = pinocchio_model(
+        robot, np.tile(from_mass_properties(1.0, np.zeros(3), np.eye(3)), (len(robot.links), 1))
+    )
+    data = model.createData()
+    inside = (rows.time > span[0]) & (rows.time < span[1])
+    middle = rows.position[inside][inside.sum() // 2]
+    jacobian = pin.computeJointJacobian(model, data, middle, model.njoints - 1)
+    way = np.array([0.3, 0.4, -0.87])
+    force = data.oMi[model.njoints - 1].rotation.T @ (way / np.linalg.norm(way))
+    return np.asarray(jacobian[:3].T @ force)
 
 
 def with_row(robot: RobotModel, joint: int, **changes: float) -> RobotModel:

@@ -5,13 +5,13 @@ change by twice that level without anything happening. What changes by more, and
 again, came from outside. A brake that engages or a controller that relaxes does not return.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.stats import norm
 
-from ...arrays import Indices, JointSeries, JointVector, Vector
+from ...arrays import Indices, JointSeries, JointVector
 from ...dynamics.jacobian import Jacobian
 from ...dynamics.prediction import Prediction
 from ...dynamics.terms.coulomb import Coulomb
@@ -26,38 +26,56 @@ from ..thresholds.checks import AT_REST
 
 
 @dataclass(frozen=True, eq=False)
-class Scale:
-    """Hold, per joint, the residual's RMS in motion, by how much torque may change at rest, and the unit."""
+class _Scale:
+    """Hold, per joint, the residual's RMS in motion, and by how much torque may change at rest."""
 
     noise: JointVector
     limits: JointVector
-    units: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class _Push:
+    """Hold one push: its log, when it acts (s), the force (N) that would do it, and where torque shows it."""
+
+    log: str
+    begin: float
+    end: float
+    step: float
+    force: float
+    deviation: float
+    joint: int
+    torque: float
+    limit: float
+    excess: float
+    """The joint, from 1, whose torque shows it best: by how much it changes, by how much it may, and the
+    difference in standard deviations."""
 
 
 def contacts_at_rest(dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
-    """Give the push in every stand that holds one, at the end of the arm's only chain."""
+    """Give all pushes on the last link of an arm as one finding; none where it has several ends."""
     links = end_links(dataset.robot)
     if len(links) != 1:
         return ()
     ((joint, link),) = links.items()
-    left = torque_residual(dataset, operating_point)
-    rows = dataset.clear.sum(axis=0)
-    squares = np.sum(left**2, axis=0, where=dataset.clear)
-    noise = np.sqrt(np.divide(squares, rows, out=np.full(len(rows), np.inf), where=rows > 0))
-    limits = 2.0 * _coulomb_levels(operating_point) + AT_REST.deviations * noise
-    units = tuple(joint_unit(dataset.robot, number + 1, "N m") for number in range(dataset.joints))
-    scale = Scale(noise, limits, units)
-    jacobian = contact_jacobian(dataset.robot, link, dataset.state)
-    found = []
+    scale, jacobian = _scale(dataset, operating_point), contact_jacobian(dataset.robot, link, dataset.state)
+    pushes = []
     for rows in _stands(dataset):
         edge = max(AT_REST.edge_rows, len(rows) // 10)
         torque = dataset.torque[rows]
         ends = np.array([np.median(part, axis=0) for part in (torque[:edge], torque[-edge:])])
         change = torque - ends.mean(axis=0)
-        beyond = (np.abs(change) > limits).any(axis=1)
-        if beyond.any() and (np.abs(ends[1] - ends[0]) < limits).all():
-            found.append(_finding(joint, dataset.time[rows], change, jacobian[rows], scale))
-    return tuple(found)
+        beyond = (np.abs(change) > scale.limits).any()
+        if beyond and (np.abs(ends[1] - ends[0]) < scale.limits).all():
+            pushes.append(_push(dataset, rows, change, jacobian[rows], scale))
+    return (_finding(dataset, joint, pushes),) if pushes else ()
+
+
+def _scale(dataset: Dataset, operating_point: Prediction) -> _Scale:
+    """Tell how far torque may change at rest; any way on a joint that never moves."""
+    left, count = torque_residual(dataset, operating_point), dataset.clear.sum(axis=0)
+    squares = np.sum(left**2, axis=0, where=dataset.clear)
+    noise = np.sqrt(np.divide(squares, count, out=np.full(len(count), np.inf), where=count > 0))
+    return _Scale(noise, 2.0 * _coulomb_levels(operating_point) + AT_REST.deviations * noise)
 
 
 def _coulomb_levels(operating_point: Prediction) -> JointVector:
@@ -71,40 +89,63 @@ def _coulomb_levels(operating_point: Prediction) -> JointVector:
 
 def _stands(dataset: Dataset) -> Iterator[Indices]:
     """Give the rows of every time in which all joints stand, without those in which the filter settles."""
-    still = (np.abs(dataset.state.velocity) < AT_REST.still_share * dataset.speed).all(axis=1)
-    rows = np.flatnonzero(still)
-    if not len(rows):
-        return
-    for run in np.split(rows, np.flatnonzero(~dataset.follows(rows)[1:]) + 1):
+    held = np.max([motion.recipe.still_speed for motion in dataset.motions], axis=0)
+    slow = np.maximum(AT_REST.still_share * dataset.speed, held)
+    rows = np.flatnonzero((np.abs(dataset.state.velocity) <= slow).all(axis=1))
+    for run in np.split(rows, np.flatnonzero(~dataset.follows(rows))):
         inner = run[AT_REST.settling_rows : len(run) - AT_REST.settling_rows]
         if len(inner) >= AT_REST.least_rows:
             yield inner
 
 
-def _finding(joint: int, time: Vector, change: JointSeries, push: Jacobian, scale: Scale) -> SampleFinding:
-    """Describe a push by its time and by the force at the last link that would do it."""
-    acts = (np.abs(change) > AT_REST.deviations * scale.noise).any(axis=1)
-    begin, end = float(time[acts][0]), float(time[acts][-1])
+def _push(dataset: Dataset, rows: Indices, change: JointSeries, jacobian: Jacobian, scale: _Scale) -> _Push:
+    time, acts = dataset.time[rows], (np.abs(change) > AT_REST.deviations * scale.noise).any(axis=1)
     relative = np.abs(change) / scale.limits
-    peak, largest = np.unravel_index(int(np.argmax(relative)), relative.shape)
-    weighted = (push[peak][:3] / scale.noise).T
+    peak, best = np.unravel_index(int(np.argmax(relative)), relative.shape)
+    weighted = (jacobian[peak][:3] / scale.noise).T
     force, _, rank, sizes = np.linalg.lstsq(weighted, change[peak] / scale.noise)
-    doubt = float(np.linalg.norm(1.0 / sizes[:rank])) if rank else 0.0
-    step, torque = float(np.median(np.diff(time))), float(np.abs(change[peak, largest]))
-    excess = (torque - float(scale.limits[largest])) / float(scale.noise[largest])
+    torque, limit = float(np.abs(change[peak, best])), float(scale.limits[best])
+    return _Push(
+        log=dataset.motions[dataset.log[rows[0]]].log.name,
+        begin=float(time[acts][0]),
+        end=float(time[acts][-1]),
+        step=float(np.median(np.diff(time))),
+        force=float(np.linalg.norm(force)),
+        deviation=float(np.linalg.norm(1.0 / sizes[:rank])),
+        joint=int(best) + 1,
+        torque=torque,
+        limit=limit,
+        excess=(torque - limit) / float(scale.noise[best]),
+    )
+
+
+def _finding(dataset: Dataset, joint: int, pushes: Sequence[_Push]) -> SampleFinding:
+    """Describe all pushes, by the names that a contact in motion has, and first the largest force."""
+    largest = max(pushes, key=lambda push: push.force)
+    found = [Quantity("force", joint, "N", largest.force, largest.deviation)]
+    for number, push in enumerate(pushes, start=1):
+        found += [
+            Quantity(f"force_{number}", joint, "N", push.force, push.deviation),
+            Quantity(f"start_{number}", None, "s", push.begin, push.step),
+            Quantity(f"end_{number}", None, "s", push.end, push.step),
+        ]
+    clearest = max(push.excess for push in pushes)
+    told = "; ".join(_told(dataset, push) for push in pushes)
     return SampleFinding(
         site=(joint,),
-        quantities=(
-            Quantity("force", joint, "N", float(np.linalg.norm(force)), doubt),
-            Quantity("start_1", None, "s", begin, step),
-            Quantity("end_1", None, "s", end, step),
-        ),
-        statement=(
-            f"External contact while the arm stands, from {begin:.3g} s to {end:.3g} s: the torque of joint "
-            f"{largest + 1} changes by {number_text(torque, 3)} and returns, where friction can hold "
-            f"{number_text(float(scale.limits[largest]), 3)} {scale.units[largest]}"
-        ),
-        statistic=excess,
-        p_value=float(max(2.0 * norm.sf(AT_REST.deviations + excess), 1e-300)),
-        residual_share=np.zeros(len(scale.noise)),
+        quantities=tuple(found),
+        statement=f"External contact while the arm stands: {told}",
+        statistic=clearest,
+        p_value=float(max(2.0 * norm.sf(AT_REST.deviations + clearest), 1e-300)),
+        residual_share=np.zeros(dataset.joints),
+    )
+
+
+def _told(dataset: Dataset, push: _Push) -> str:
+    unit = joint_unit(dataset.robot, push.joint, "N m")
+    where = f" of {push.log}" if len(dataset.motions) > 1 else ""
+    return (
+        f"from {push.begin:.3g} s to {push.end:.3g} s{where} the torque of joint {push.joint} changes by "
+        f"{number_text(push.torque, 3)} {unit} and returns, where friction and noise explain "
+        f"{number_text(push.limit, 3)} {unit}"
     )

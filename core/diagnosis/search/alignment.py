@@ -30,10 +30,13 @@ Later = Callable[[float], JointSeries]
 
 def restart_from_alignment(found: SearchState, later: Later) -> SearchState:
     """Give the better of a search and its restart from the exact delay, which members may stand for."""
-    hiding = {*masks(TimeDelay.id), *excludes(TimeDelay.id)}
-    kept = tuple(member for member in found.chosen.members if member.cause.id not in {*hiding, TimeDelay.id})
-    if all(member.cause.id not in hiding for member in found.chosen.members):
+    stand_ins = {*masks(TimeDelay.id), *excludes(TimeDelay.id)}
+    names = {member.cause.id for member in found.chosen.members}
+    if names.isdisjoint(stand_ins):
         return found
+    kept = tuple(
+        member for member in found.chosen.members if member.cause.id not in {*stand_ins, TimeDelay.id}
+    )
     fitter = found.fitter.linearised_at(found.fitter.fit(kept))
     without = fitter.fit(kept)
 

@@ -26,13 +26,14 @@ At = Callable[[float], Dataset]
 
 
 def drop_what_motion_does_not_show(found: SearchState, at: At) -> SearchState:
-    """Drop such members one by one, and search on without them."""
-    state = found
+    """Drop such members one by one, and search on without them; none of them may enter again."""
+    state, dropped = found, {}
     while (weak := _weak(state, at)) is not None:
         member, without = state.chosen.members[weak], state.fitter.fit_without_each(state.chosen)[weak]
+        dropped[member.key] = np.inf
         less = state.at(state.fitter.linearised_at(without), without)
         state = continue_search(less.recorded("dropped", member, 0.0).excluding(member.key))
-    return state
+    return replace(state, excluded=dropped)
 
 
 def _weak(state: SearchState, at: At) -> int | None:

@@ -27,17 +27,18 @@ def found():
 
 
 def test_what_the_motion_shows_stays(found):
-    assert drop_what_motion_does_not_show(found, at(measured_arm(late(LATE)))) is found
+    assert drop_what_motion_does_not_show(found, at(measured_arm(late(LATE)))).chosen is found.chosen
 
 
 def test_what_the_motion_does_not_show_is_dropped(found):
     left = drop_what_motion_does_not_show(found, at(measured_arm()))
     assert left.keys == frozenset()
     assert [step.action for step in left.steps][-1] == "dropped"
+    assert set(left.excluded) == found.keys
 
 
 def test_nothing_is_dropped_where_no_row_is_left(found):
     def refuse(_width):
         raise ExcitationError("no stretch is long enough", evidence={}, remedy="record more")
 
-    assert drop_what_motion_does_not_show(found, refuse) is found
+    assert drop_what_motion_does_not_show(found, refuse).chosen is found.chosen
