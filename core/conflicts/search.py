@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .conflict import Hypothesis
-from .kinds.mounting import Mounting
+from .kinds.mounting import Mounting, is_tilt
 from .registry import CONFLICTS
 from .setup import Setup
 from .thresholds import DECISION, TRIAL
@@ -48,8 +48,13 @@ def find_conflicts(setup: Setup, trials: Trials) -> Path:
 
 
 def _with_gravity_refined(path: Path, described: Setup, trials: Trials) -> Path:
-    """Refine the direction of gravity beside all other corrections: it was found beside what they correct."""
+    """Find the direction of gravity anew beside all other corrections: it was found beside what they correct.
+
+    Directions found one after the other are one. If that is a mere tilt of the described one, none is left.
+    """
     mountings = [place for place, step in enumerate(path) if step.hypothesis.conflict == Mounting.name]
+    if mountings and is_tilt(path[-1].hypothesis.setup.robot.gravity, described.robot.gravity):
+        return _with_gravity(path, described, None, trials)
     if not mountings or mountings == [len(path) - 1]:
         return path
     corrected = path[-1].hypothesis.setup.with_gravity(described.robot.gravity)
@@ -61,19 +66,27 @@ def _with_gravity_refined(path: Path, described: Setup, trials: Trials) -> Path:
     if not tried:
         return path
     best = min(tried, key=lambda candidate: candidate.outcome.score).hypothesis
-    refined: list[FoundConflict] = []
-    for place, step in enumerate(path):
-        if place in mountings[1:]:
-            continue
-        own = best if place == mountings[0] else step.hypothesis
-        gravity = best.setup if place >= mountings[0] else described
-        hypothesis = replace(own, setup=step.hypothesis.setup.with_gravity(gravity.robot.gravity))
-        after = trials.outcome(trials.equations(hypothesis.setup))
+    refined = _with_gravity(path, described, best, trials)
+    return refined if _cost(refined) < _cost(path) else path
+
+
+def _with_gravity(path: Path, described: Setup, mounting: Hypothesis | None, trials: Trials) -> Path:
+    """Put one mounting, or none, in the place of all of a path."""
+    out: list[FoundConflict] = []
+    gravity = described.robot.gravity
+    for step in path:
+        own = step.hypothesis
+        if own.conflict == Mounting.name:
+            if mounting is None or gravity is mounting.setup.robot.gravity:
+                continue
+            own, gravity = mounting, mounting.setup.robot.gravity
+        own = replace(own, setup=step.hypothesis.setup.with_gravity(gravity))
+        after = trials.outcome(trials.equations(own.setup))
         if after is None:
             return path
-        before = refined[-1].after if refined else step.before
-        refined.append(replace(step, hypothesis=hypothesis, before=before, after=after))
-    return tuple(refined) if _cost(tuple(refined)) < _cost(path) else path
+        before = out[-1].after if out else step.before
+        out.append(replace(step, hypothesis=own, before=before, after=after))
+    return tuple(out)
 
 
 def _path(setup: Setup, present: Outcome, trials: Trials, most: int) -> Path:

@@ -44,7 +44,7 @@ class Mounting(Conflict):
         bound = trials.bound_of_gravity(setup)
         for way in _likely(lambda way: bound(size * way)):
             gravity = size * way
-            if _angle(way, described) < MOUNTING.least_angle:
+            if is_tilt(gravity, described):
                 continue
             listed = ", ".join(f"{component + 0.0:.3g}" for component in gravity)
             yield Hypothesis(
@@ -56,6 +56,11 @@ class Mounting(Conflict):
                 f"{np.degrees(_angle(way, described)):.0f} degrees from the described direction",
                 f"describe the robot with gravity [{listed}]",
             )
+
+
+def is_tilt(gravity: Vector3, described: Vector3) -> bool:
+    """Tell whether gravity is so near the described direction that this is a cause with a size, no conflict."""
+    return _angle(gravity, described) < MOUNTING.least_angle
 
 
 def _likely(bound: Bound) -> Iterator[Vector3]:

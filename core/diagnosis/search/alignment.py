@@ -9,6 +9,7 @@ Identification (1999), ch. 7 and 10, on profiles of what is not linear.
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 from scipy.optimize import minimize_scalar
@@ -26,20 +27,20 @@ PARTS = (-1.0, -0.5, -0.25, -0.125, 0.0, 0.125, 0.25, 0.5, 1.0)
 """Delays that are tried first, as parts of the largest."""
 Later = Callable[[float], JointSeries]
 """Gives the data set's torque, taken so many seconds later."""
+Lost = Callable[[float], float]
+"""Gives the negative log-likelihood where the torque is taken so many seconds later."""
 
 
 def restart_from_alignment(found: SearchState, later: Later) -> SearchState:
     """Give the better of a search and its restart from the exact delay, which members may stand for."""
-    stand_ins = {*masks(TimeDelay.id), *excludes(TimeDelay.id)}
-    names = {member.cause.id for member in found.chosen.members}
-    if names.isdisjoint(stand_ins):
+    stand_ins = {*masks(TimeDelay.id), *excludes(TimeDelay.id), TimeDelay.id}
+    if all(member.cause.id == TimeDelay.id for member in found.chosen.members):
         return found
-    kept = tuple(
-        member for member in found.chosen.members if member.cause.id not in {*stand_ins, TimeDelay.id}
-    )
+    kept = tuple(member for member in found.chosen.members if member.cause.id not in stand_ins)
     fitter = found.fitter.linearised_at(found.fitter.fit(kept))
     without = fitter.fit(kept)
 
+    @cache
     def shifted(seconds: float) -> SearchState:
         own = fitter.with_torque(later(seconds))
         return found.at(own, own.fit(kept))
@@ -47,13 +48,9 @@ def restart_from_alignment(found: SearchState, later: Later) -> SearchState:
     def lost(seconds: float) -> float:
         return -shifted(seconds).chosen.fit.log_likelihood
 
-    steps = [ALIGNMENT.furthest * part for part in PARTS]
-    coarse = [lost(seconds) for seconds in steps]
-    best = int(np.argmin(coarse))
-    around = steps[max(best - 1, 0)], steps[min(best + 1, len(steps) - 1)]
-    delay = float(
-        minimize_scalar(lost, bounds=around, method="bounded", options={"xatol": ALIGNMENT.tolerance}).x
-    )
+    if not _is_promising(lost):
+        return found
+    delay = _likeliest(lost)
     there = fitter.linearised_at(shifted(delay).chosen)
     candidates = there.at.of_kind((TimeDelay.id, ()))
     if not candidates:
@@ -65,3 +62,22 @@ def restart_from_alignment(found: SearchState, later: Later) -> SearchState:
     begun = found.at(there, start).recorded("swapped", start.members[-1], brings)
     other = continue_search(replace(begun, excluded={}), known=found.through)
     return other if bic(other.chosen) > bic(found.chosen) + SELECTION.undecided else found
+
+
+def _is_promising(lost: Lost) -> bool:
+    """Tell whether the least of a parabola through three delays can be worth a restart."""
+    step = ALIGNMENT.furthest * min(part for part in PARTS if part > 0.0)
+    before, now, after = lost(-step), lost(0.0), lost(step)
+    curvature = before - 2.0 * now + after
+    if curvature <= 0.0:
+        return True
+    return 2.0 * (before - after) ** 2 / (8.0 * curvature) > SELECTION.undecided
+
+
+def _likeliest(lost: Lost) -> float:
+    """Refine the best of some delays, s."""
+    steps = [ALIGNMENT.furthest * part for part in PARTS]
+    best = int(np.argmin([lost(seconds) for seconds in steps]))
+    around = steps[max(best - 1, 0)], steps[min(best + 1, len(steps) - 1)]
+    options = {"xatol": ALIGNMENT.tolerance}
+    return float(minimize_scalar(lost, bounds=around, method="bounded", options=options).x)

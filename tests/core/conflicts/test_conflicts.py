@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from tests.conflicts.score import answer, mean_percent
 from tests.conflicts.spoil import SPOILERS
@@ -77,6 +78,16 @@ def test_a_measured_length_that_is_described_too_short_is_named_or_what_equals_i
     assert found.setup.robot.links[1].row.d == pytest.approx(0.3, abs=0.04)
     described = Setup.as_described(pendulum)
     assert not list(CONFLICTS["link_length"].hypotheses(described, trials))
+
+
+def test_a_measured_arm_described_with_a_slight_tilt_is_not_turned_over_and_back():
+    """Below the least angle a tilt is a cause with a size: its opposite fits better than the tilt, too."""
+    robot, log = measured_robot("ur10e_open"), measured_log("ur10e_open", "fourier_30s_12h", 635, 3510)
+    tilt = Rotation.from_rotvec(np.radians([9.0, -1.0, 0.0]))
+    tilted = replace(robot, gravity=tilt.apply(robot.gravity))
+    motions = condition_all((log,), tilted, FilterOptions(), blocks=20)
+    trials = Trials(sampled(motions, HoldOut().chosen(1)))
+    assert find_conflicts(Setup.as_described(tilted), trials) == ()
 
 
 @pytest.mark.parametrize("seed", [3, 6, 11])
