@@ -59,7 +59,7 @@ class Mounting(Conflict):
 
 
 def is_tilt(gravity: Vector3, described: Vector3) -> bool:
-    """Tell whether gravity is so near the described direction that this is a cause with a size, no conflict."""
+    """Tell whether gravity is so near the described direction that this is a cause, and no conflict."""
     return _angle(gravity, described) < MOUNTING.least_angle
 
 
