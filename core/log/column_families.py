@@ -13,6 +13,22 @@ _CHANNEL_WORDS = frozenset(word for channel in JOINT_CHANNELS for word in channe
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 _BRACKETS = re.compile(r"[\[({<][^\[\](){}<>]*[A-Za-z%°][^\[\](){}<>]*[\])}>]")
 _INDEX = re.compile(r"\d+")
+_GERMAN = {
+    "zeit": "time",
+    "zeitstempel": "timestamp",
+    "lage": "position",
+    "winkel": "angle",
+    "geschwindigkeit": "velocity",
+    "drehzahl": "speed",
+    "drehmoment": "torque",
+    "kraft": "force",
+    "strom": "current",
+    "temperatur": "temperature",
+    "soll": "ref",
+}
+"""German words of controllers' exports, and the English ones that tell the same channel."""
+_GERMAN_FIRST = re.compile(r"(ist|soll|motor)([a-z]{4,})")
+"""First part of a German compound: actual, asked for, of the motor."""
 
 
 def name_words(name: str) -> set[str]:
@@ -22,8 +38,18 @@ def name_words(name: str) -> set[str]:
     --------
     >>> sorted(name_words("Joint1_Pos [deg]"))
     ['joint', 'pos']
+    >>> sorted(name_words("Sollwinkel_A1")), sorted(name_words("Motorstrom 1"))
+    (['a', 'angle', 'ref'], ['current', 'motor'])
     """
-    return {word.lower() for word in _WORD.findall(_BRACKETS.sub(" ", name))}
+    words = (word.lower() for word in _WORD.findall(_BRACKETS.sub(" ", name)))
+    parts = (part for word in words for part in _parts(word))
+    return {_GERMAN.get(part, part) for part in parts}
+
+
+def _parts(word: str) -> tuple[str, ...]:
+    """Part a German compound that tells what is asked for or measured."""
+    compound = _GERMAN_FIRST.fullmatch(word)
+    return (word,) if compound is None else compound.groups()
 
 
 def numbered_families(names: Sequence[str]) -> dict[str, list[str]]:

@@ -8,7 +8,7 @@ from ....core.errors import LogError, OptionError, RobotError
 from ...json_text import json_bytes
 from ..computing import COMPILING, limit_threads, share_compiled_kernels
 from ..output.files import save
-from ..output.streams import note
+from ..output.streams import note, note_suspicions
 from ..results import read_result
 from .protocol import WHOLE, Document, FromUrdf, Progress, Study, require_whole
 
@@ -88,7 +88,9 @@ class LocalBackend:
 
         progress("load", 0.0)
         kind, options = kind_of(study.kind), dict(study.options)
-        robot = self.robot(study.robot, study.part)["description"]
+        seen = self.robot(study.robot, study.part)
+        robot = seen["description"]
+        note_suspicions(seen["suspicions"])
         kind.read_options(options)
         mapping = None if study.mapping is None else dict(study.mapping)
         digests = {path: _hash(path) for path in study.logs}

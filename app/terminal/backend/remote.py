@@ -10,7 +10,7 @@ from ...client.errors import ServiceError
 from ...client.parcel import require_file
 from ...client.records import Robot
 from ..output.files import means_a_file, save
-from ..output.streams import note
+from ..output.streams import note, note_suspicions
 from .protocol import WHOLE, Document, FromUrdf, Progress, Study, require_whole
 
 
@@ -45,6 +45,7 @@ class RemoteBackend:
         for path in study.logs:
             require_file(path, LogError)
         robot = self._robot(study.robot, study.part)
+        note_suspicions(robot.suspicions)
         progress("upload", 0.0)
         logs = [self._client.upload(path, mapping=study.mapping) for path in study.logs]
         submit = partial(self._client.submit, study.kind, robot, logs, study.options)

@@ -1,7 +1,7 @@
 """Speak to a terminal: results on standard output, everything else on standard error, plain where piped."""
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from io import TextIOWrapper
 from typing import TYPE_CHECKING, NoReturn
 
@@ -39,6 +39,12 @@ def echo(text: str) -> None:
 def note(text: str) -> None:
     """Write a line beside the result."""
     sys.stderr.write(text + "\n")
+
+
+def note_suspicions(suspicions: Iterable[str]) -> None:
+    """Write what is probably wrong in a robot's description, before anything is computed from it."""
+    for suspicion in suspicions:
+        note(f"warning: {suspicion}")
 
 
 def write(content: bytes) -> None:

@@ -79,5 +79,6 @@ def _likeliest(lost: Lost) -> float:
     steps = [ALIGNMENT.furthest * part for part in PARTS]
     best = int(np.argmin([lost(seconds) for seconds in steps]))
     around = steps[max(best - 1, 0)], steps[min(best + 1, len(steps) - 1)]
-    options = {"xatol": ALIGNMENT.tolerance}
-    return float(minimize_scalar(lost, bounds=around, method="bounded", options=options).x)
+    return float(
+        minimize_scalar(lost, bounds=around, method="bounded", options={"xatol": ALIGNMENT.tolerance}).x
+    )

@@ -53,6 +53,13 @@ def test_files_and_a_service_give_the_same_document_byte_for_byte(planar, tmp_pa
     assert f"job {job.id}" in there.stderr
 
 
+def test_what_is_odd_in_a_description_is_said_before_a_result_computed_from_it(planar):
+    hanging = description() | {"gravity": [0.0, 0.0, 9.81]}
+    (planar / "arm.json").write_text(json.dumps(hanging))
+    ended = run("identify", "arm.json", "swing.csv", *QUICK)
+    assert "warning: gravity points along +z of the base" in ended.stderr
+
+
 def test_tables_are_plain_where_they_are_piped(desk, identified, monkeypatch):
     monkeypatch.setattr(
         "veritorque.app.terminal.backend.local.LocalBackend.run", lambda *_: identified.read_bytes()

@@ -46,6 +46,14 @@ RECORDERS = {
         "timestamp", "actuators[0].position", "actuators[1].position", "actuators[0].torque",
         "actuators[1].torque", scales=(DEG, DEG),
     ),
+    "German": recorded(
+        "Zeit [ms]", "Winkel Achse 1 (°)", "Winkel Achse 2 (°)", "Drehmoment Achse 1 (Nm)",
+        "Drehmoment Achse 2 (Nm)", time_scale=1e3, scales=(DEG, DEG),
+    ),
+    "German compounds": recorded(
+        "Zeitstempel [s]", "Istlage_A1", "Istlage_A2", "Istmoment_A1", "Istmoment_A2"
+    )
+    | {"Solllage_A1": COLUMNS["q_1"], "Solllage_A2": COLUMNS["q_2"]},
     "MATLAB": recorded("t", "q(1)", "q(2)", "tau(1)", "tau(2)"),
     "CAPITALS": recorded("TIME", "POS1", "POS2", "TRQ1", "TRQ2"),
 }  # fmt: skip  # a table
