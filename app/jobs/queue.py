@@ -97,23 +97,31 @@ class Queue:
         """Dismiss an unfinished job; its worker stops the computation."""
         return self._store.jobs.dismiss(job.id) or job
 
-    def refuse_if_needed(self, *, robot: str | None = None, log: str | None = None) -> None:
-        """Refuse to delete what an unfinished job needs.
+    def refuse_if_needed(self, *, robot: str = "", log: str = "", reference: str = "") -> None:
+        """Refuse to delete what an unfinished job needs; a reference is the job that it compares with.
 
         Raises
         ------
         Problem
-            If an unfinished job names the robot or the log (409).
+            If an unfinished job names it (409).
         """
         waiting = self._store.jobs.unfinished_requests()
-        users = [request for request in waiting if request.robot == robot or log in request.logs]
+        users = [
+            request
+            for request in waiting
+            if request.robot == robot or log in request.logs or reference == _reference(request)
+        ]
         if users:
             raise Problem(
                 "in-use",
-                f"{robot or log} is needed by jobs that are not finished",
+                f"{robot or log or reference} is needed by jobs that are not finished",
                 evidence={"jobs": len(users), "states": list(UNFINISHED)},
                 remedy="wait for these jobs or dismiss them",
             )
+
+
+def _reference(request: JobRequestRecord) -> str | None:
+    return kind_of(request.kind).reference(request.options)
 
 
 def _check_joints(robot: RobotRecord, log: LogRecord) -> None:

@@ -170,7 +170,7 @@ def read_artifact(
     "/{job_id}",
     response_model=Job,
     summary="Dismiss a job, or delete a finished one",
-    responses=problems(404)
+    responses=problems(404, 409)
     | {
         200: {"description": "The job was unfinished and is now dismissed"},
         204: {"description": "The job was finished and is deleted"},
@@ -179,6 +179,8 @@ def read_artifact(
 def delete_job(context: ContextOf, job_id: str) -> Response:
     """Dismiss an unfinished job, which ends its computation; delete a finished one with its result."""
     job = find_job(context, job_id)
+    if job.finished:
+        context.queue.refuse_if_needed(reference=job.id)
     if job.finished and context.store.jobs.remove(job.id):
         return Response(status_code=204)
     return JSONResponse(job_document(context.queue.dismiss(job)))

@@ -97,6 +97,17 @@ def test_a_job_that_was_deleted_is_no_reference(earlier):
     assert problem["evidence"]["reference"] == job["id"]
 
 
+def test_a_job_that_an_unfinished_one_compares_with_cannot_be_deleted(tmp_path):
+    with service(tmp_path, InlineExecutor()) as client:
+        first, _ = done(client, asked(client, sent(client), {}, kind="identify"))
+    with service(tmp_path, StubExecutor()) as client:
+        body = asked(client, sent(client, seed=12), {"reference": first["id"]})
+        second = client.post("/v1/jobs", json=body).json()
+        assert_problem(client.delete(f"/v1/jobs/{first['id']}"), 409, "in-use")
+        client.delete(f"/v1/jobs/{second['id']}")
+        assert client.delete(f"/v1/jobs/{first['id']}").status_code == 204
+
+
 def test_a_job_of_another_robot_is_no_reference(earlier):
     client, reference = earlier
     body = asked(client, sent(client), {"reference": reference}, gravity=[0.0, 0.0, -9.81])
