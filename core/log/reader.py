@@ -93,7 +93,7 @@ def _with_suggestion(error: LogError, table: Table) -> LogError:
         return error
     evidence = error.evidence | {"suggested_mappings": mappings}
     several = ", one for each arm" if len(mappings) > 1 else ""
-    written = " or ".join(map(json.dumps, mappings))
+    written = " or ".join(json.dumps(mapping, ensure_ascii=False) for mapping in mappings)
     return LogError(
         error.cause,
         evidence=evidence,

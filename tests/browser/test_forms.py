@@ -1,6 +1,7 @@
 import json
 import math
 
+import numpy as np
 import pytest
 
 from tests.app.planar_arm import columns, csv_log
@@ -150,6 +151,23 @@ def test_columns_that_say_nothing_are_mapped_in_a_form(look, service, odd_log):
     _, _, torque = columns(seconds=4.0)
     low, high = torque[:, 0].min(), torque[:, 0].max()
     assert f"from {low:.4g} to {high:.4g}".replace("-", MINUS) in summary
+
+
+def test_the_mapping_that_names_below_title_lines_suggest_is_applied_by_one_click(look, service, tmp_path):
+    seen = look(service)
+    seen.statuses.add(422)
+    page = seen.open("/new")
+    time, position, torque = columns(seconds=4.0)
+    rows = [";".join(map(str, row)) for row in np.column_stack([1e3 * time, position, torque])]
+    names = "Zeit [ms];Istwinkel_A1 [rad];Istwinkel_A2 [rad];Istmoment_A1 [Nm];Istmoment_A2 [Nm]"
+    path = tmp_path / "messung.csv"
+    path.write_text("\n".join(["Messung 12;;", "Datum: 27.11.2026;;", names, *rows]), encoding="utf-8")
+    page.set_input_files("#log input[type=file]", path)
+    page.get_by_role("button", name="Apply suggested mapping").wait_for()
+    assert page.get_by_label("Channel of Istmoment_A1 [Nm]").input_value() == "torque"
+    assert seen.barriers() == []
+    page.get_by_role("button", name="Apply suggested mapping").click()
+    page.get_by_role("article", name="Log messung.csv").wait_for()
 
 
 def test_joints_that_differ_have_a_unit_each(look, service, odd_log):

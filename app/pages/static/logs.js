@@ -107,7 +107,7 @@ export function chooseLogs(container, { wanted = [], chosen }) {
   }
 
   async function offerMapping(file, place, problem, replaced = null) {
-    const columns = (await columnsOf(file)) ?? problem?.evidence?.columns ?? [];
+    const columns = namesOf(await columnsOf(file), problem?.evidence?.columns);
     if (!columns.length) return;
     const form = element("div", {});
     if (problem === null) fill(place);
@@ -115,6 +115,7 @@ export function chooseLogs(container, { wanted = [], chosen }) {
     mappingForm(form, {
       columns,
       readings: problem?.evidence?.plausible_readings ?? {},
+      suggested: problem?.evidence?.suggested_mappings ?? [],
       finished: (mapping) => take(file, mapping, form, replaced),
     });
   }
@@ -170,6 +171,12 @@ export function chooseLogs(container, { wanted = [], chosen }) {
       chosen([...logs.values()].map((one) => one.log));
     }
   }
+}
+
+// The service knows where a header lies below title lines; it may list the first columns only.
+function namesOf(first, listed) {
+  if (!Array.isArray(listed)) return first ?? [];
+  return first !== null && listed.every((name) => first.includes(name)) ? first : listed;
 }
 
 function facts(log) {

@@ -13,12 +13,57 @@ const PROFILES = {
 };
 const DRIVE_GAIN =
   "Joint torque is motor current times the drive gain: torque constant (N m/A) times gear ratio. Enter both for each joint in the robot's table, under “more columns”. If torque is logged as well, torque is used.";
+
+/** Tell whether a suggested mapping leaves nothing open. */
+function isWhole(mapping) {
+  return !JSON.stringify(mapping).includes('"?"');
+}
+
+/** Show a mapping that the names of the columns suggest, to be confirmed. */
+function suggestion(mapping, finished) {
+  const rows = Object.entries(mapping).map(([channel, request]) => [
+    channel,
+    request?.columns?.join(", ") ?? request?.column ?? String(request),
+    [request?.unit ?? ""].flat().join(", "),
+  ]);
+  return element(
+    "div",
+    { class: "suggestion", role: "group", "aria-label": "Suggested mapping" },
+    element("p", {}, "The names and sizes of the columns suggest:"),
+    element(
+      "table",
+      {},
+      element(
+        "thead",
+        {},
+        element("tr", {}, ["channel", "columns", "unit"].map((name) => element("th", { scope: "col" }, name))),
+      ),
+      element(
+        "tbody",
+        {},
+        rows.map(([channel, ...cells]) =>
+          element("tr", {}, element("th", { scope: "row" }, channel), cells.map((cell) => element("td", {}, cell))),
+        ),
+      ),
+    ),
+    element(
+      "div",
+      { class: "actions" },
+      element(
+        "button",
+        { type: "button", class: "primary", on: { click: () => finished(mapping) } },
+        "Apply suggested mapping",
+      ),
+    ),
+  );
+}
+
 /**
  * Show the form.
  * @param {HTMLElement} container
- * @param {Object} options `columns` of the file; `readings`: what units are plausible by column; `finished(mapping)`
+ * @param {Object} options `columns` of the file; `readings`: what units are plausible by column; `suggested` mappings; `finished(mapping)`
  */
-export function mappingForm(container, { columns, readings, finished }) {
+export function mappingForm(container, { columns, readings, suggested = [], finished }) {
   const roles = likelyRoles(columns);
   const joints = columns.map(() => null);
   const units = {};
@@ -36,6 +81,7 @@ export function mappingForm(container, { columns, readings, finished }) {
       "section",
       { class: "mapping", "aria-label": "Mapping of columns" },
       element("h3", {}, "Map columns"),
+      suggested.filter(isWhole).map((mapping) => suggestion(mapping, finished)),
       field(
         "Recorder profile",
         menu([["", "none: map the columns below"], ...Object.entries(PROFILES)], "", (profile) => {
