@@ -6,6 +6,7 @@ without, and others check the first calls of each function (see `tests.shapes`).
 """
 
 import os
+import sys
 from pathlib import Path
 
 import jaxtyping
@@ -34,6 +35,10 @@ collect_ignore = ["veritorque/app/store/migrations/env.py"]  # a script, which o
 
 # Where `make serve` keeps its kernels: services that tests start compile none again.
 os.environ.setdefault("NUMBA_CACHE_DIR", str(Path(__file__).parent / "data" / "kernels"))
+
+# Each of the many processes that tests start would compile every module again where bytecode is switched off.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 
 install_import_hook(CHECKED_PACKAGES, "tests.shapes.first_calls")
 

@@ -12,6 +12,8 @@ from tests.app.planar_arm import csv_log, description
 LOGS = 4
 WAITING = 24
 """Jobs that are asked for and not finished, at most."""
+FOLLOW_S = 0.5
+"""How often it is asked how far they are."""
 GAVE_UP = "urn:veritorque:problem:computation-stopped"
 
 
@@ -49,7 +51,7 @@ class Customer:
                 self._place(number)
                 number += 1
             else:
-                time.sleep(0.2)
+                time.sleep(FOLLOW_S)
             self._follow()
 
     def read(self, number):

@@ -13,6 +13,8 @@ FROZEN_S = 15.0
 TURNS = ("child", "worker", "child", "service", "child", "worker", "child", "worker", "child", "service")
 """What is killed, in turn; a few kills meet each kind."""
 PAUSE_S, EARLY = 0.5, 2
+LOOK_S = 0.05
+"""How often it is looked for a victim: a job takes a few times as long."""
 
 
 class Storm:
@@ -61,7 +63,7 @@ class Storm:
         kind = next(self._turns)
         deadline = time.monotonic() + 5.0
         while not (victims := self._victims(kind)) and time.monotonic() < deadline:
-            time.sleep(0.01)
+            time.sleep(LOOK_S)
         if victims:
             self.kills[kind] += send(self._random.choice(victims), signal.SIGKILL)
 
