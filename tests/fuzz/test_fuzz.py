@@ -12,7 +12,7 @@ from tests.fuzz.campaign import case, read, run
 from tests.fuzz.mutation import WITHIN, spoilt
 from tests.fuzz.seeds import seeds
 
-RUNS = 300
+RUNS = 150
 FORMS = tuple(seeds())
 SURVIVING = tuple(form for form in FORMS if form != "MATLAB v5")
 """Formats whose libraries have not been seen to crash: they may be read in the tests' own process."""
