@@ -35,6 +35,12 @@ class Gear:
         own = self.joint - 1
         return self.believed.slopes(state, own)[2][:, own] - self.motor_inertia
 
+    def slopes(self, state: MotionState) -> tuple[Samples, Samples]:
+        """Give the load's derivatives by the joint's own position and velocity."""
+        own = self.joint - 1
+        by_position, by_velocity, _ = self.believed.slopes(state, own)
+        return by_position[:, own], by_velocity[:, own]
+
     def change(self, state: MotionState, shift: MotionState) -> JointSeries:
         """Give the first-order change of all joints' loads where the link's motion differs from the motor's.
 

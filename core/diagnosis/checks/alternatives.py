@@ -19,7 +19,7 @@ from ..search.entry_test import begins_within, passes_holdout, with_candidate
 from ..search.fitter import HypothesisFitter
 from ..search.holdout import holdout_share
 from ..search.hypothesis import Candidate, Hypothesis
-from ..search.likelihood_ratio import bic_gain, likelihood_ratio
+from ..search.likelihood_ratio import bic_gain, likelihood_ratio, position_noise_by_joint
 from ..search.residuals import residual
 from ..search.state import SearchState
 from ..thresholds.checks import ALTERNATIVES
@@ -186,11 +186,9 @@ def _noise_statistic(fitter: HypothesisFitter, own: Hypothesis, both: tuple[Cand
     """Give the statistic that position noise may give two candidates: none where one is unlike it."""
     if not all(candidate.cause.traits.like_position_noise for candidate in both):
         return 0.0
-    torque, worth = fitter.dataset.position_torque, []
-    for rows, part, made in zip(fitter.rows.fitted, own.fit.joints, torque.T, strict=True):
-        worth.append(float(np.sum(part.noise.whitened(made[rows.rows, None], rows.run_index) ** 2)))
+    worth = position_noise_by_joint(fitter, own)
     every = range(1, len(worth) + 1)
-    return min(max(worth[joint - 1] for joint in candidate.site or every) for candidate in both)
+    return min(max(float(worth[joint - 1]) for joint in candidate.site or every) for candidate in both)
 
 
 def _undecided_alternative(

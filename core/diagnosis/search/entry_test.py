@@ -15,7 +15,14 @@ from .confounding import is_masked
 from .fitter import HypothesisFitter
 from .holdout import holdout_likelihood_ratio, holdout_share
 from .hypothesis import Candidate, Hypothesis, ScoredCandidate
-from .likelihood_ratio import bic_gain, bounded_likelihood_ratio, likelihood_ratio, log_p, wald_statistic
+from .likelihood_ratio import (
+    bic_gain,
+    bounded_likelihood_ratio,
+    likelihood_ratio,
+    log_p,
+    position_noise_by_joint,
+    wald_statistic,
+)
 from .lr_bound import predicted_likelihood_ratios
 from .profile_likelihood import refine_scalars
 from .state import Excluded
@@ -168,7 +175,7 @@ def is_significant(
         level = ENTRY.further_level if now.members else ENTRY.event_level if rare else ENTRY.level
     hurdle = np.log(level) - np.log(max(kinds, 1))
     chance = log_p(now, trial, bounded_likelihood_ratio(now, trial, index), index)
-    return bool(chance < hurdle and _explained_share(now, trial) > _least_share(fitter, trial.members[index]))
+    return bool(chance < hurdle) and _is_large(fitter, now, trial, index)
 
 
 def _acts_rarely(trial: Hypothesis, index: int) -> bool:
@@ -207,14 +214,16 @@ def with_candidate(fitter: HypothesisFitter, now: Hypothesis, scored: ScoredCand
     return kept[key]
 
 
-def _explained_share(now: Hypothesis, trial: Hypothesis) -> float:
-    """Give the share of the mean square that a trial takes away, as noise has a share of it."""
+def _is_large(fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis, index: int) -> bool:
+    """Tell whether a member explains enough to matter, and more than noise of the positions is where it acts.
+
+    The columns hold that noise, too: what resembles it may explain up to all of it.
+    """
+    brings = likelihood_ratio(now, trial)
     rows = min((len(joint.torque) for joint in trial.fit.joints if len(joint.torque)), default=1)
-    return float(-np.expm1(-likelihood_ratio(now, trial) / rows))
-
-
-def _least_share(fitter: HypothesisFitter, member: Candidate) -> float:
-    if not member.cause.traits.like_position_noise:
-        return ENTRY.least_share
-    joints = member.site or range(1, fitter.dataset.joints + 1)
-    return max(ENTRY.least_share, *(float(fitter.dataset.position_share[joint - 1]) for joint in joints))
+    if -np.expm1(-brings / rows) <= ENTRY.least_share:
+        return False
+    if not trial.members[index].cause.traits.like_position_noise:
+        return True
+    acts = list(fitter.columns(trial.members)[index])
+    return bool(brings > position_noise_by_joint(fitter, trial)[acts].sum())

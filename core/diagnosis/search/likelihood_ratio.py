@@ -47,6 +47,14 @@ def likelihood_ratio_by_joint(now: Hypothesis, trial: Hypothesis) -> JointVector
     return np.asarray(2.0 * (trial.fit.by_joint - now.fit.by_joint))
 
 
+def position_noise_by_joint(fitter: HypothesisFitter, under: Hypothesis) -> JointVector:
+    """Give the sum of squares, per joint, of a draw of the positions' noise, made white as the residual."""
+    torque, sums = fitter.dataset.position_torque, []
+    for rows, part, made in zip(fitter.rows.fitted, under.fit.joints, torque.T, strict=True):
+        sums.append(float(np.sum(part.noise.whitened(made[rows.rows, None], rows.run_index) ** 2)))
+    return np.array(sums)
+
+
 def log_p_of(fitter: HypothesisFitter, chosen: Hypothesis, index: int, statistic: float) -> float:
     """Give the log of a member's p-value, corrected for its grid and for all kinds that were scanned.
 

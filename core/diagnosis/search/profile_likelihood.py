@@ -89,7 +89,8 @@ def _refine(
     if name in candidate.cause.traits.onset:
         candidate = _at_likeliest_onset(fitter, under, candidate, name)
     here = candidate.scalars[name]
-    low, high = np.clip(neighbours(points, here), *ends)
+    # About the nearest grid point: beside one, the way across it would be as short as the distance to it.
+    low, high = np.clip(neighbours(points, _nearest(points, here)), *ends)
     if name in candidate.cause.traits.onset and here not in points:
         low, high = here - _row(fitter), here + _row(fitter)
     seen: dict[float, float] = {}
@@ -236,6 +237,12 @@ def neighbours(points: Sequence[float], here: float) -> tuple[float, float]:
     low = points[index - 1] if index else _mirror(here, points[index + 1])
     high = points[index + 1] if index + 1 < len(points) else _mirror(here, points[index - 1])
     return low, high
+
+
+def _nearest(points: Sequence[float], here: float) -> float:
+    """Give the nearest of some points: by ratio where all are positive, as they are subdivided."""
+    ratios = min(*points, here) > 0.0
+    return min(points, key=lambda point: abs(np.log(point / here)) if ratios else abs(point - here))
 
 
 def _mirror(here: float, other: float) -> float:

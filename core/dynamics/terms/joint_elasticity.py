@@ -1,7 +1,9 @@
 """Give the effect of joint elasticity with motor-side encoders: the link lags by torque over stiffness.
 
-The link's position is q - H(load / K), to first order in the compliance 1 / K. H is the response of the
-link's inertia on spring and damper, one below their resonance. The change of the load is linear in 1 / K.
+The link's position is q - x. To first order in x, the link moves by M x'' + (D + C) x' + (K + G) x = load:
+M, C and G are the load's derivatives by the joint's acceleration, velocity and position along the motion, so
+that the resonance moves with the posture. The change of the load is linear in 1 / K where K is what the
+resonance yields.
 Source: Spong, J. Dyn. Sys. Meas. Control 109, 1987.
 """
 
@@ -9,9 +11,9 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from scipy.fft import irfft, next_fast_len, rfft, rfftfreq
 
-from ...arrays import JointSeries, Samples, Spectrum
+from ...arrays import JointSeries, Samples
+from ...numerics.oscillator import swing
 from ...robot.joint_units import joint_unit
 from ...robot.model import Parameter, RobotModel
 from ...signals.state import MotionState
@@ -19,6 +21,11 @@ from ...signals.zero_phase import kernel
 from ..gear import Gear
 from ..prediction import Prediction
 from .effect import AllJointsTerm, rates, step_of
+
+LEAST_INERTIA = 0.05
+"""Share of the mean moved inertia below which none is taken: a fit may give a posture one of any sign."""
+LEAST_STIFFNESS = 0.2
+"""Share of the spring's stiffness that the load's slope by position leaves of it at least."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +37,7 @@ class Elasticity(AllJointsTerm):
     """Bandwidth at which loads are smoothed before differentiation."""
     resonance_hz: float
     damping_ratio: float
-    """Those of the link's inertia on the spring: below it the link follows the load without lag."""
+    """Those of the link's mean inertia on the spring: far below it the link follows the load without lag."""
     motor_inertia: float = 0.0
     """Rotor inertia that the operating point's load contains, kg m2 (kg)."""
     symbols = (("compliance", "rad/(N m)", 0.0),)
@@ -48,31 +55,35 @@ class Elasticity(AllJointsTerm):
         """Give the change of all joints' loads per unit of compliance."""
         del robot
         gear = Gear(self.believed, self.joint, self.motor_inertia)
-        load = _load_spectrum(gear, state, self.band_hz)
-        lag = -resonate(load, state, self.resonance_hz, self.damping_ratio)[:, None]
+        link = _swinging(gear, state, self.band_hz)
+        angular = 2.0 * np.pi * self.resonance_hz
+        springs = angular**2 / link.inertia
+        squares = np.maximum(springs + link.slope, LEAST_STIFFNESS * springs)
+        decays = self.damping_ratio * angular / link.inertia + link.decay
+        lag = -(angular**2) * swing(link.pull, step_of(state), squares, decays)[:, None]
         return [gear.change(state, MotionState(lag, *rates(lag, state)))]
 
 
+@dataclass(frozen=True, eq=False)
+class _Link:
+    """Hold the link's own motion: inertia over its mean, load, slope and decay over inertia."""
+
+    inertia: Samples
+    pull: Samples
+    slope: Samples
+    decay: Samples
+
+
 @lru_cache(maxsize=64)
-def _load_spectrum(gear: Gear, state: MotionState, band_hz: float) -> Spectrum:
-    """Give the spectrum of a transmission's smoothed load; cached for a scan."""
-    return spectrum_of(smooth(gear.load(state)[:, None], state, band_hz)[:, 0])
-
-
-def spectrum_of(values: Samples) -> Spectrum:
-    """Transform a series that is mirrored at its end and padded by its first value to a fast length."""
-    size = next_fast_len(2 * len(values), real=True)
-    held = np.full(size - 2 * len(values), values[0])
-    return np.asarray(rfft(np.concatenate([values, values[::-1], held])))
-
-
-def resonate(spectrum: Spectrum, state: MotionState, resonance_hz: float, damping_ratio: float) -> Samples:
-    """Filter a series of a state's samples by a mass on a spring, with gain one at rest."""
-    count = len(state.position)
-    size = next_fast_len(2 * count, real=True)
-    ratio = rfftfreq(size, step_of(state)) / resonance_hz
-    response = 1.0 / (1.0 - ratio**2 + 2j * damping_ratio * ratio)
-    return np.asarray(irfft(spectrum * response, size)[:count])
+def _swinging(gear: Gear, state: MotionState, band_hz: float) -> _Link:
+    """Give how the link behind a transmission swings; cached for a scan."""
+    load = smooth(gear.load(state)[:, None], state, band_hz)[:, 0]
+    inertia, mean = gear.inertia(state), float(np.mean(gear.inertia(state)))
+    if mean <= 0.0:  # no spring is found on such a link
+        return _Link(np.ones_like(load), load, np.zeros_like(load), np.zeros_like(load))
+    moved = np.maximum(inertia, LEAST_INERTIA * mean)
+    by_position, by_velocity = gear.slopes(state)
+    return _Link(moved / mean, load * mean / moved, by_position / moved, 0.5 * by_velocity / moved)
 
 
 def smooth(values: JointSeries, state: MotionState, band_hz: float) -> JointSeries:

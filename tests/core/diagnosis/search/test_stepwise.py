@@ -260,7 +260,7 @@ def test_what_a_chosen_cause_keeps_out_is_not_added_however_much_it_would_explai
     [(False, 0.5, True), (True, 0.1, True), (True, 0.5, False)],
     ids=["unlike", "more than noise has", "less than noise has"],
 )
-def test_what_noise_of_positions_passes_for_is_named_only_with_a_larger_share_than_it_has(
+def test_what_noise_of_positions_passes_for_is_named_only_if_it_explains_more_than_all_of_it(
     like_noise, share, named
 ):
     def columns(state, scalars):
@@ -268,8 +268,8 @@ def test_what_noise_of_positions_passes_for_is_named_only_with_a_larger_share_th
 
     cause = made_up("noisy", columns, like_position_noise=like_noise)
     scene = measured_arm(wave_effect({QUICK: 0.04}))
-    dataset = replace(scene.dataset, position_share=np.array([0.9, share, 0.9]))
-    fitter = fitter_of(replace(scene, dataset=dataset), (cause,))
+    noise = np.sqrt([0.9, share, 0.9]) * residual_of(measured_arm(None))
+    fitter = fitter_of(replace(scene, dataset=replace(scene.dataset, position_torque=noise)), (cause,))
     none = nothing_found(fitter)
     trial = fitter.fit((candidate(cause),))
     assert 0.1 < likelihood_ratio(none, trial) / len(trial.fit.joints[1].torque) < 0.5

@@ -1,0 +1,57 @@
+"""Integrate a damped oscillator whose coefficients change along a series.
+
+Over a step its coefficients are taken as constant, and its free motion is exact. The weights of the three
+pulls about a sample are those that are exact for pulls up to second order in time. Source: Golub & Van Loan,
+Matrix Computations, ch. 4.3 (banded solution).
+"""
+
+import numpy as np
+from scipy.linalg import solve_banded
+
+from ..arrays import Samples
+
+MOST_DAMPED = 0.999
+"""Share of critical damping from which on more is taken for this: the free motion then no longer swings."""
+
+
+def swing(pulls: Samples, step: float, squares: Samples, decays: Samples) -> Samples:
+    """Solve x'' + 2 decay x' + square x = pull, which rests under its first pull at the first sample.
+
+    Parameters
+    ----------
+    pulls
+        Right side, per s2 (so below, each per sample).
+    step
+        Time between samples, s.
+    squares, decays
+        Squared angular frequency, 1/s2, which is positive, and decay, 1/s.
+
+    Examples
+    --------
+    Under a pull that grows steadily it follows, late by twice the decay over the square.
+
+    >>> ones = np.ones(400)
+    >>> float(np.round(swing(np.arange(400.0), 1.0, ones, 0.25 * ones)[-1], 6))
+    398.5
+    """
+    most = MOST_DAMPED * np.sqrt(squares)
+    decays = np.clip(decays, -most, most)
+    kept = np.exp(-decays * step)
+    once, twice = 2.0 * kept * np.cos(np.sqrt(squares - decays**2) * step), kept**2
+    late = 2.0 * decays / squares
+    rest, slope = (1.0 - once + twice) / squares, (1.0 - twice) / squares
+    bend = (1.0 + twice) / squares - 2.0 * (late / step) * slope
+    first = slope - late / step * rest
+    second = bend + 2.0 * rest * (late**2 - 1.0 / squares) / step**2
+    padded = np.pad(pulls, 1, mode="edge")
+    driven = rest * pulls
+    driven += 0.5 * first * (padded[2:] - padded[:-2])
+    driven += 0.5 * second * (padded[2:] - 2.0 * pulls + padded[:-2])
+    start = pulls[0] / squares[0]
+    driven[0] += (once[0] - twice[0]) * start
+    if len(pulls) > 1:
+        driven[1] -= twice[1] * start
+    bands = np.ones((3, len(pulls)))
+    bands[1, :-1], bands[2, :-2] = -once[1:], twice[2:]
+    following = solve_banded((2, 0), bands, driven, check_finite=False)
+    return np.append(start, following[:-1])
