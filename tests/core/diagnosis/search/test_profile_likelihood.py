@@ -40,7 +40,7 @@ def test_on_trial_a_scalar_is_what_it_is_settled_at_and_its_deviation_is_left_op
 
 
 def test_a_scalar_beside_a_grid_point_is_refined_as_far_as_one_on_it(fitter):
-    """From so little above a point it once came no further than the distance to it."""
+    """From so little below a point it once came no further than the distance to it."""
     none = fitter.fit(())
-    beside = refine_scalars(fitter, none, candidate(fitter.causes[0], {"rate": 6.501}), on_trial=True)
+    beside = refine_scalars(fitter, none, candidate(fitter.causes[0], {"rate": 6.499}), on_trial=True)
     assert beside.scalars["rate"] == pytest.approx(TRUE, abs=0.1)
