@@ -13,8 +13,8 @@ from .protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting
 from .shared.own_joint import OwnJointCause, geometric_grid, motor_inertias, rotor_text
 
 LOWEST, HIGHEST, POINTS = 1.8, 4.0, 8
-DAMPING_RATIOS = (0.02, 0.1)
-"""Refined from 0.004 to 0.5. Taken for more damped than it is, a spring leaves a torque that leads."""
+DAMPING_RATIOS = (0.02, 0.2)
+"""Refined from 0.002 on. Taken for more damped than it is, a spring leaves a torque that leads."""
 
 
 @dataclass(frozen=True)
