@@ -19,6 +19,7 @@ from .likelihood_ratio import (
     bic_gain,
     bounded_likelihood_ratio,
     likelihood_ratio,
+    likelihood_ratio_by_joint,
     log_p,
     position_noise_by_joint,
     wald_statistic,
@@ -215,15 +216,15 @@ def with_candidate(fitter: HypothesisFitter, now: Hypothesis, scored: ScoredCand
 
 
 def _is_large(fitter: HypothesisFitter, now: Hypothesis, trial: Hypothesis, index: int) -> bool:
-    """Tell whether a member explains enough to matter, and more than noise of the positions is where it acts.
+    """Tell whether a member explains enough, and on one of its joints more than the positions' noise is.
 
     The columns hold that noise, too: what resembles it may explain up to all of it.
     """
-    brings = likelihood_ratio(now, trial)
+    brings, member = likelihood_ratio_by_joint(now, trial), trial.members[index]
     rows = min((len(joint.torque) for joint in trial.fit.joints if len(joint.torque)), default=1)
-    if -np.expm1(-brings / rows) <= ENTRY.least_share:
+    if -np.expm1(-brings.sum() / rows) <= ENTRY.least_share:
         return False
-    if not trial.members[index].cause.traits.like_position_noise:
+    if not member.cause.traits.like_position_noise:
         return True
-    acts = list(fitter.columns(trial.members)[index])
-    return bool(brings > position_noise_by_joint(fitter, trial)[acts].sum())
+    own = [joint - 1 for joint in member.site] or slice(None)
+    return bool(np.any((brings > position_noise_by_joint(fitter, trial))[own]))

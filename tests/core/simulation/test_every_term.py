@@ -18,6 +18,7 @@ from tests.core.estimate.worlds import true_parameters
 from tests.tools import random_robot
 from veritorque.core.dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
 from veritorque.core.dynamics.term import Term
+from veritorque.core.dynamics.terms.joint_elasticity import Elasticity
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.model import RobotModel
 from veritorque.core.signals.condition import Motion, condition
@@ -35,6 +36,10 @@ LARGEST = {"rad": 0.03, "m": 0.01, "s": 0.005}
 """Beyond these an error is no small one, for which alone its term holds."""
 LEFT = {False: 0.1, True: 0.25}
 """Share of a term's effect on the motion that may be left: what one remembers may lie before the stretch."""
+
+RINGING = 2.0
+"""Seconds in which a compliant joint's own swing falls to a third: what rings for longer began before the
+stretch that a window is simulated in, see docs/limits.md."""
 
 
 @cache
@@ -131,11 +136,17 @@ def test_a_robot_driven_by_the_torque_of_a_motion_goes_that_motion(name):
     assert strayed(mechanism_of(model, values), logged(model.torque(values, motion_state()))) < 0.01
 
 
+def _is_settled_in_a_stretch(term: Term) -> bool:
+    if not isinstance(term, Elasticity):
+        return True
+    return 1.0 / (2.0 * np.pi * term.resonance_hz * term.damping_ratio) < RINGING
+
+
 @pytest.mark.parametrize("name", SEARCHED)
 def test_a_robot_with_any_further_term_goes_the_motion_of_its_torque_and_one_without_does_not(name):
     without, least = plain()
     shown = []
-    for term in searched(name):
+    for term in filter(_is_settled_in_a_stretch, searched(name)):
         model, values = model_with(skew_arm(), term)
         motion = logged(model.torque(values, motion_state()))
         missed, left = strayed(without, motion), strayed(mechanism_of(model, values), motion)
