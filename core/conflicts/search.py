@@ -77,9 +77,9 @@ def _with_gravity(path: Path, described: Setup, mounting: Hypothesis | None, tri
     for step in path:
         own = step.hypothesis
         if own.conflict == Mounting.name:
-            if mounting is None or gravity is mounting.setup.robot.gravity:
+            if mounting is None:
                 continue
-            own, gravity = mounting, mounting.setup.robot.gravity
+            own, gravity, mounting = mounting, mounting.setup.robot.gravity, None  # later ones are part of it
         own = replace(own, setup=step.hypothesis.setup.with_gravity(gravity))
         after = trials.outcome(trials.equations(own.setup))
         if after is None:

@@ -50,11 +50,7 @@ def limit_bandwidth(dataset_at: Callable[[float], Fitted]) -> Fitted:
     # With scattered stamps a wide band still shows friction, but no delay, filter or spring.
     scattered, scattered_shares = position_noise_torque(fitted, over_stamps=True)
     dataset, operating_point, noise = fitted
-    dataset = replace(
-        dataset,
-        position_share=np.maximum(even_shares, scattered_shares),
-        position_torque=np.where(scattered_shares > even_shares, scattered, even),
-    )
+    dataset = replace(dataset, position_torque=np.where(scattered_shares > even_shares, scattered, even))
     return dataset, operating_point, noise
 
 

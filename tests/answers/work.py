@@ -47,7 +47,7 @@ def answered(name: str) -> Answer:
     document, missing = None, ""
     try:
         document = asks()[name]()
-    except pytest.skip.Exception as left_out:
+    except pytest.skip.Exception as left_out:  # public data that are not here: said with the answers
         missing = str(left_out)
     except Exception as error:  # noqa: BLE001 - what the product refuses is part of what it answers
         document = _refusal(error)

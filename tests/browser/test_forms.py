@@ -165,6 +165,7 @@ def test_the_mapping_that_names_below_title_lines_suggest_is_applied_by_one_clic
     page.set_input_files("#log input[type=file]", path)
     page.get_by_role("button", name="Apply suggested mapping").wait_for()
     assert page.get_by_label("Channel of Istmoment_A1 [Nm]").input_value() == "torque"
+    assert page.get_by_label("Channel of Istwinkel_A1 [rad]").input_value() == "position"
     assert seen.barriers() == []
     page.get_by_role("button", name="Apply suggested mapping").click()
     page.get_by_role("article", name="Log messung.csv").wait_for()

@@ -1,4 +1,5 @@
-// The form that maps columns to channels, joints and units. Channels are guessed from names, units never.
+// The form that maps columns to channels, joints and units. It fills in channels by names, and never a unit; the mapping
+// that the service suggests stands above it, with units, and is applied by a click only.
 import { CHANNELS, likelyRoles, knownUnits, oneCount, unitChoices } from "./columns.js";
 import { field, figure, menu, readNumber } from "./controls.js";
 import { element, fill } from "./dom.js";
@@ -17,6 +18,16 @@ const DRIVE_GAIN =
 /** Tell whether a suggested mapping leaves nothing open. */
 function isWhole(mapping) {
   return !JSON.stringify(mapping).includes('"?"');
+}
+
+/** Give each column the channel that a mapping has it for. */
+function rolesIn(mapping, columns) {
+  const channels = new Map(
+    Object.entries(mapping).flatMap(([channel, request]) =>
+      (request?.columns ?? [request?.column]).map((name) => [name, channel]),
+    ),
+  );
+  return columns.map((name) => channels.get(name) ?? "");
 }
 
 /** Show a mapping that the names of the columns suggest, to be confirmed. */
@@ -64,7 +75,8 @@ function suggestion(mapping, finished) {
  * @param {Object} options `columns` of the file; `readings`: what units are plausible by column; `suggested` mappings; `finished(mapping)`
  */
 export function mappingForm(container, { columns, readings, suggested = [], finished }) {
-  const roles = likelyRoles(columns);
+  const told = rolesIn(suggested[0] ?? {}, columns);
+  const roles = told.some(Boolean) ? told : likelyRoles(columns);
   const joints = columns.map(() => null);
   const units = {};
   const scales = {};

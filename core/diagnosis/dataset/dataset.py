@@ -13,17 +13,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from scipy.sparse import block_diag, csr_array
 
-from ...arrays import (
-    BlockKey,
-    Indices,
-    JointMask,
-    JointSeries,
-    JointVector,
-    KeptSeries,
-    Samples,
-    Series,
-    UsableRows,
-)
+from ...arrays import BlockKey, Indices, JointMask, JointSeries, KeptSeries, Samples, Series, UsableRows
 from ...dynamics.model import DynamicModel
 from ...dynamics.term import Term
 from ...dynamics.terms.payload_change import Payload
@@ -70,8 +60,6 @@ class Dataset:
     motion_band_hz: float
     width: float
     """Cut-off of the parallel filter, that of the motion, and the ratio of the two that was asked for."""
-    position_share: JointVector
-    """Per joint, the share of the white residual's mean square that noise of the positions has."""
     position_torque: JointSeries
     """One draw of the torque error that such noise causes: rows x joints, N m or N."""
 
@@ -171,7 +159,6 @@ def build_dataset(
         band_hz=max(motion.recipe.cutoff_hz for motion in motions),
         motion_band_hz=max(motion.recipe.motion_band_hz for motion in motions),
         width=width,
-        position_share=np.zeros(len(model.robot.joints)),
         position_torque=np.zeros_like(series["torque"]),
     )
 
