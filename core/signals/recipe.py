@@ -11,11 +11,11 @@ from scipy import signal
 
 from ..arrays import JointSeries, JointVector, Mask
 from ..errors import OptionError
-from ..log.model import JointLog, LogRows
+from ..log.model import JointLog
 from ..robot.joint_units import largest_of_kind
-from .derivative import absurd_reach, continued, differentiate_throughout, without_absurd
+from .derivative import differentiate_throughout
 from .noise_band import ATTENUATION, OUTWEIGHED, noise_cutoff
-from .resample import uniform
+from .resample import uniform_positions
 from .zero_phase import HIGHEST_ORDER
 
 MOTION_SHARE = 0.995
@@ -252,7 +252,7 @@ def _survey(log: JointLog, median_order: int) -> _Survey:
     firsts = np.linspace(start, stop - length, count).astype(int)
     read = [log.source.rows(int(first), int(first) + length) for first in firsts]
     slowest = min((length - 1) / float(rows.time[-1] - rows.time[0]) for rows in read)
-    positions = [_position(rows, log.rate_hz, median_order) for rows in read]
+    positions = [uniform_positions(rows, log.rate_hz, median_order) for rows in read]
     velocities = [_velocity(position, log.rate_hz) for position in positions]
     speeds = np.sqrt(np.mean([np.mean(velocity**2, axis=0) for velocity in velocities], axis=0))
     power = np.mean([_power(velocity, log.rate_hz) for velocity in velocities], axis=0)
@@ -268,12 +268,6 @@ def _survey(log: JointLog, median_order: int) -> _Survey:
 
 def _low_pass_hz(rate_hz: float) -> float:
     return min(0.2 * rate_hz, 40.0)
-
-
-def _position(rows: LogRows, rate_hz: float, median_order: int) -> JointSeries:
-    """Leave out the absurd samples, which would otherwise pass for quick motion."""
-    _, position, _ = uniform(rows, rate_hz)
-    return without_absurd(continued(position, absurd_reach(median_order)), median_order)
 
 
 def _velocity(position: JointSeries, rate_hz: float) -> JointSeries:

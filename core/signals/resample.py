@@ -2,7 +2,9 @@
 
 Between stamps positions follow a cubic spline and torques a straight line: positions are smooth and will be
 differentiated twice, torques carry noise that a spline would amplify. A few rows that repeat the row before
-are dropped samples and are left out; many of them are a robot that stands still.
+are dropped samples and are left out; many of them are a robot that stands still. Absurd positions are
+replaced before a spline is laid through them: it would spread one of them over its neighbours, and none would
+look absurd any more.
 """
 
 import numpy as np
@@ -10,6 +12,7 @@ from scipy.interpolate import CubicSpline
 
 from ..arrays import Instants, InstantSeries, JointSeries, SampleMask, Samples
 from ..log.model import STANDING_ROWS, LogRows, repeated_rows
+from .derivative import absurd_reach, continued, without_absurd
 
 UNIFORM_TOLERANCE = 1e-3
 """Stamps that deviate from a uniform clock by less than a thousandth of a step are uniform."""
@@ -27,27 +30,45 @@ def is_uniform(time: Samples, rate_hz: float) -> bool:
     return bool(np.max(np.abs(time - grid)) * rate_hz < UNIFORM_TOLERANCE)
 
 
-def uniform(rows: LogRows, rate_hz: float) -> tuple[Samples, JointSeries, JointSeries]:
-    """Give time, position and torque (or current) on a uniform clock that starts at the first stamp."""
-    effort = rows.torque if rows.torque is not None else rows.current
-    if effort is None:
-        effort = np.zeros_like(rows.position)
+def uniform_positions(rows: LogRows, rate_hz: float, median_order: int) -> JointSeries:
+    """Give the positions on a uniform clock that starts at the first stamp, without absurd samples."""
     even = is_uniform(rows.time, rate_hz)
     if even and not dropped_mask(rows).any():
-        return rows.time, rows.position, effort
+        return without_spikes(rows.position, median_order)
     count = int((rows.time[-1] - rows.time[0]) * rate_hz + 1e-6) + 1
     grid = rows.time if even else rows.time[0] + np.arange(count) / rate_hz
-    return grid, *on_grid(rows, effort, grid)
+    return positions_on(grid, rows, median_order)
 
 
-def on_grid(rows: LogRows, effort: JointSeries, grid: Instants) -> tuple[InstantSeries, InstantSeries]:
-    """Interpolate position and effort at the instants of a grid inside the rows' time span."""
+def positions_on(grid: Instants, rows: LogRows, median_order: int) -> InstantSeries:
+    """Interpolate the positions, without absurd samples, at instants inside the rows' time span."""
     fresh = ~dropped_mask(rows)
-    time = rows.time[fresh]
-    torque = np.column_stack([np.interp(grid, time, column) for column in effort[fresh].T])
+    time, position = rows.time[fresh], without_spikes(rows.position[fresh], median_order)
     if len(time) < 4:
-        return np.column_stack([np.interp(grid, time, column) for column in rows.position[fresh].T]), torque
-    return np.asarray(CubicSpline(time, rows.position[fresh], axis=0)(grid)), torque
+        return linear(grid, time, position)
+    return np.asarray(CubicSpline(time, position, axis=0)(grid))
+
+
+def efforts_on(grid: Instants, rows: LogRows) -> InstantSeries:
+    """Interpolate torques (or currents) at the instants of a grid inside the rows' time span."""
+    fresh = ~dropped_mask(rows)
+    return linear(grid, rows.time[fresh], effort_of(rows)[fresh])
+
+
+def effort_of(rows: LogRows) -> JointSeries:
+    """Give the torques, else the currents, else zeros."""
+    effort = rows.torque if rows.torque is not None else rows.current
+    return np.zeros_like(rows.position) if effort is None else effort
+
+
+def without_spikes(position: JointSeries, median_order: int) -> JointSeries:
+    """Replace the absurd samples of a whole stretch, which is continued beyond its ends to judge these."""
+    return without_absurd(continued(position, absurd_reach(median_order)), median_order)
+
+
+def linear(grid: Instants, time: Samples, values: JointSeries) -> InstantSeries:
+    """Interpolate every column on a straight line at the instants of a grid."""
+    return np.column_stack([np.interp(grid, time, column) for column in values.T])
 
 
 def gap_mask(rows: LogRows, grid: Instants, longest: float) -> SampleMask:

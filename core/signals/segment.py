@@ -15,10 +15,19 @@ from scipy.signal import oaconvolve
 from ..arrays import Instants, InstantSeries, JointMask, JointSeries, JointVector, Matrix, SampleMask, Samples
 from ..log.defects.clock import GAP_STEPS, longest_bridge
 from ..log.model import JointLog, LogRows
-from .derivative import REACH, absurd_reach, differentiate, without_absurd
+from .derivative import REACH, absurd_reach, differentiate
 from .parallel import ParallelFilter, Tile
 from .recipe import Recipe, is_usable
-from .resample import dropped_mask, gap_mask, is_uniform, on_grid
+from .resample import (
+    dropped_mask,
+    effort_of,
+    efforts_on,
+    gap_mask,
+    is_uniform,
+    linear,
+    positions_on,
+    without_spikes,
+)
 from .state import MotionState
 from .zero_phase import kernel, reach_of
 
@@ -114,13 +123,11 @@ class Segment:
 
     def _condition(self, begin: int, end: int) -> tuple[MotionState, JointSeries, SampleMask]:
         """Give state, torque, and what rests on instants at which nothing was measured."""
-        halo = absurd_reach(self.recipe.median_order) + len(self.low_pass) // 2 + 2 * REACH
+        halo = len(self.low_pass) // 2 + 2 * REACH
         left, right = max(0, begin - halo), min(self.samples, end + halo)
         position, torque, bridge = self._read(left, right)
         padded = _extend(position, halo - (begin - left), halo - (right - end))
-        smooth = oaconvolve(
-            without_absurd(padded, self.recipe.median_order), self.low_pass[:, None], mode="valid", axes=0
-        )
+        smooth = oaconvolve(padded, self.low_pass[:, None], mode="valid", axes=0)
         velocity = differentiate(smooth, self.rate_hz)
         acceleration = differentiate(velocity, self.rate_hz)
         state = MotionState(smooth[2 * REACH : -2 * REACH], velocity[REACH:-REACH], acceleration)
@@ -133,24 +140,29 @@ class Segment:
             return self._read_even(begin, end)
         grid = self.begin_time + np.arange(begin, end) / self.rate_hz
         near = np.searchsorted(self.stamps, grid[[0, -1]])
-        low, high = max(0, int(near[0]) - _NEIGHBOURS), min(len(self.stamps), int(near[1]) + _NEIGHBOURS)
-        rows = self.log.source.rows(self.start + low, self.start + high)
+        rows, _ = self._rows(int(near[0]), int(near[1]))
         return self._interpolate(rows, grid)
 
     def _read_even(self, begin: int, end: int) -> tuple[JointSeries, JointSeries, SampleMask]:
         """Take even samples as they are, unless some of them only repeat the one before."""
-        low, high = max(0, begin - _NEIGHBOURS), min(self.samples, end + _NEIGHBOURS)
-        rows = self.log.source.rows(self.start + low, self.start + high)
-        inner = slice(begin - low, end - low)
-        if not dropped_mask(rows).any():
-            return rows.position[inner], _effort(rows)[inner], np.zeros(end - begin, dtype=bool)
-        return self._interpolate(rows, rows.time[inner])
+        rows, before = self._rows(begin, end)
+        inner = slice(before, before + end - begin)
+        if dropped_mask(rows).any():
+            return self._interpolate(rows, rows.time[inner])
+        position = without_spikes(rows.position, self.recipe.median_order)
+        return position[inner], effort_of(rows)[inner], np.zeros(end - begin, dtype=bool)
+
+    def _rows(self, begin: int, end: int) -> tuple[LogRows, int]:
+        """Read some rows with all neighbours that bear on them; count those before them."""
+        neighbours = _NEIGHBOURS + absurd_reach(self.recipe.median_order)
+        low, high = max(0, begin - neighbours), min(self.samples, end + neighbours)
+        return self.log.source.rows(self.start + low, self.start + high), begin - low
 
     def _interpolate(self, rows: LogRows, grid: Instants) -> tuple[JointSeries, JointSeries, SampleMask]:
         """Interpolate at the instants of a grid; copied rows count as a gap in the stamps."""
         bridge = longest_bridge(1.0 / self.rate_hz, self.recipe.motion_band_hz)
         unknown = gap_mask(rows, grid, max(bridge, GAP_STEPS / self.rate_hz))
-        return *on_grid(rows, _effort(rows), grid), unknown
+        return positions_on(grid, rows, self.recipe.median_order), efforts_on(grid, rows), unknown
 
     def _temperature(self, now: Instants) -> InstantSeries | None:
         if "temperature" not in self.log.channels:
@@ -163,7 +175,7 @@ class Segment:
         rows = self.log.source.rows(self.start + first, self.start + last)
         if rows.temperature is None:
             return None
-        return np.column_stack([np.interp(now, rows.time, column) for column in rows.temperature.T])
+        return linear(now, rows.time, rows.temperature)
 
     def _unusable(self, velocity: JointSeries, begin: int) -> JointMask:
         index = np.arange(begin, begin + len(velocity))
@@ -236,11 +248,6 @@ def _window_sums(mask: JointMask, run: int) -> np.ndarray:
     """Count the marks in every window of `run` samples."""
     sums = np.cumsum(np.pad(mask, ((1, 0), (0, 0))), axis=0)
     return np.asarray(sums[run:] - sums[:-run])
-
-
-def _effort(rows: LogRows) -> JointSeries:
-    effort = rows.torque if rows.torque is not None else rows.current
-    return np.zeros_like(rows.position) if effort is None else effort
 
 
 def _extend(position: JointSeries, before: int, after: int) -> InstantSeries:

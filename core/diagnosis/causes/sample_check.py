@@ -17,7 +17,8 @@ from ...arrays import JointSeries, JointVector
 from ...dynamics.prediction import Prediction
 from ...dynamics.terms.effect import step_of
 from ...signals.condition import Motion
-from ...signals.derivative import absurd_reach, continued, differentiate_throughout, without_absurd
+from ...signals.derivative import differentiate_throughout
+from ...signals.resample import without_spikes
 from ...signals.state import MotionState
 from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
@@ -100,7 +101,7 @@ def _corrupted(
     band = SAMPLE_CHECKS.smooth_over_motion * recipe.motion_band_hz
     smooth = _filtered(measured, min(band, SAMPLE_CHECKS.smooth_over_rate * rate_hz), rate_hz)
     corrupted = smooth + corrupt(smooth, differentiate_throughout(smooth, rate_hz), rng)
-    error = _without_spikes(corrupted, recipe.median_order) - _without_spikes(smooth, recipe.median_order)
+    error = without_spikes(corrupted, recipe.median_order) - without_spikes(smooth, recipe.median_order)
     error = _filtered(error, recipe.position_cutoff_hz, rate_hz)
     rate = differentiate_throughout(error, rate_hz)
     second = differentiate_throughout(rate, rate_hz)
@@ -117,7 +118,3 @@ def _filtered(values: JointSeries, cutoff_hz: float, rate_hz: float) -> JointSer
     reach = len(low_pass) // 2
     padded = np.pad(values, ((reach, reach), (0, 0)), mode="edge")
     return np.asarray(oaconvolve(padded, low_pass[:, None], mode="valid", axes=0))
-
-
-def _without_spikes(values: JointSeries, order: int) -> JointSeries:
-    return without_absurd(continued(values, absurd_reach(order)), order)

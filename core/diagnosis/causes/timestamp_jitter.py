@@ -15,9 +15,8 @@ from scipy.stats import binom, norm
 
 from ...arrays import JointSeries, Vector
 from ...dynamics.prediction import Prediction
-from ...log.model import LogRows
 from ...signals.derivative import differentiate_throughout
-from ...signals.resample import dropped_mask, is_uniform, on_grid
+from ...signals.resample import uniform_positions
 from ...signals.segment import Segment
 from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
@@ -90,19 +89,12 @@ def _parts(segment: Segment) -> Iterator[tuple[JointSeries, JointSeries, float]]
     reach = len(low_pass) // 2
     if count < SAMPLE_CHECKS.jitter_filters * reach:
         return
-    position = _even(segment.log.source.rows(segment.start, segment.start + count), rate_hz)
+    rows = segment.log.source.rows(segment.start, segment.start + count)
+    position = uniform_positions(rows, rate_hz, segment.recipe.median_order)
     smooth = oaconvolve(position, low_pass[:, None], mode="valid", axes=0)
     remainder = position[reach:-reach] - smooth
     share = 1.0 - 2.0 * float(low_pass[reach]) + float(low_pass @ low_pass)
     yield remainder, differentiate_throughout(smooth, rate_hz), share
-
-
-def _even(rows: LogRows, rate_hz: float) -> JointSeries:
-    """Take positions as the study does: at their real stamps, without repeats."""
-    if is_uniform(rows.time, rate_hz) and not dropped_mask(rows).any():
-        return rows.position
-    grid = np.linspace(rows.time[0], rows.time[-1], len(rows.time))
-    return np.asarray(on_grid(rows, rows.position, grid)[0])
 
 
 def _products(part: tuple[JointSeries, JointSeries, float]) -> tuple[np.ndarray, np.ndarray]:

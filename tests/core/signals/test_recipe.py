@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.core.signals.motions import Multisine, log_of, turntables
+from tests.core.signals.motions import Multisine, jittered, log_of, turntables
 from veritorque.core.errors import OptionError
 from veritorque.core.signals.condition import condition
 from veritorque.core.signals.recipe import FilterOptions, Recipe, choose_recipe
@@ -51,9 +51,10 @@ def test_encoder_noise_does_not_widen_the_band():
     assert choose_recipe(log_of(time, noisy), FilterOptions()).motion_band_hz < _recipe().motion_band_hz + 0.5
 
 
-def test_single_absurd_samples_are_not_taken_for_quick_motion():
+@pytest.mark.parametrize("scatter", [0.0, 0.2], ids=["even stamps", "scattered stamps"])
+def test_single_absurd_samples_are_not_taken_for_quick_motion(scatter):
     rng = np.random.default_rng(6)
-    time = np.arange(30_000) / RATE_HZ
+    time = jittered(rng, 30_000, RATE_HZ, scatter)
     position = Multisine.random(np.random.default_rng(1), 3, highest_hz=1.0).position(time)
     position[rng.integers(0, len(time), 200), rng.integers(0, 3, 200)] += 0.5
     recipe = choose_recipe(log_of(time, position), FilterOptions())
