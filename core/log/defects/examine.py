@@ -1,6 +1,7 @@
 """Pass over a log once: refuse what cannot be used, and collect everything else that is wrong with it.
 
 The contract is checked first; the finders get only samples that it accepts, so that all values are finite.
+Spikes come next; the other finders get medians in their place, so that one absurd sample is one defect.
 """
 
 from collections.abc import Callable
@@ -62,27 +63,28 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
         _Spread(),
         Resolution(samples),
     )
-    repeats, bandwidth = Repeats(joints), Bandwidth(joints)
+    repeats, bandwidth, spikes = Repeats(joints), Bandwidth(joints), Spikes(joints)
     stuck = Stuck(joints, repeats)
     finders: list[Finder] = [
-        clock, repeats, stuck, Spikes(joints), Saturation(joints), resolution, Rest(samples),
-        bandwidth, Direction(joints), Velocity(joints),
+        clock, repeats, stuck, Saturation(joints), resolution, Rest(samples), bandwidth, Direction(joints),
+        Velocity(joints),
     ]  # fmt: skip  # a table
     accepted = True
     for stretch in stretches(source):
         accepted = contract.accepts(stretch) and accepted
         if accepted:
-            spread.update(stretch)
+            usual = spikes.taken_from(stretch)
+            spread.update(usual)
             for finder in finders:
-                finder.update(stretch)
+                finder.update(usual)
     contract.check()
     facts = Facts(
         samples=samples,
         start=contract.start,
         duration=contract.stop - contract.start,
         step=clock.step,
-        low=contract.low,
-        high=contract.high,
+        low=spread.low,
+        high=spread.high,
         deviation=spread.deviation(),
         roughness=spread.roughness(),
         whole=spread.whole,
@@ -91,7 +93,7 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
     )
     check_sequence(facts)
     clock.bridge = longest_bridge(facts.step, max(bandwidth.edges(facts).values(), default=0.0))
-    found = [defect for finder in finders for defect in finder.defects(facts)]
+    found = [*spikes.defects(facts), *(defect for finder in finders for defect in finder.defects(facts))]
     return Examination(
         rate_hz=1.0 / facts.step,
         duration=facts.duration,
@@ -101,7 +103,10 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
 
 
 class _Spread:
-    """Sum up the deviation of position and torque, about the first sample to keep digits, and the steps."""
+    """Sum up the deviation of position and torque, about the first sample to keep digits, and the steps.
+
+    The extremes of every channel are followed beside.
+    """
 
     def __init__(self) -> None:
         self._origin: dict[str, JointVector] = {}
@@ -111,9 +116,14 @@ class _Spread:
         self._rows = 0
         self.whole: dict[str, JointMarks] = {}
         """Joints whose torque or current comes in whole numbers only."""
+        self.low: dict[str, JointVector] = {}
+        self.high: dict[str, JointVector] = {}
 
     def update(self, stretch: Stretch) -> None:
         channels = stretch.new()
+        for name, values in channels.items():
+            self.low[name] = np.fmin(self.low.get(name, np.inf), values.min(axis=1))
+            self.high[name] = np.fmax(self.high.get(name, -np.inf), values.max(axis=1))
         self._rows += channels["position"].shape[1]
         steps = np.diff(stretch.position[:, stretch.first_new :], axis=1)
         self._increments = self._increments + np.einsum("ij,ij->i", steps, steps)

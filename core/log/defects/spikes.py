@@ -4,6 +4,8 @@ A median of five follows steps and slopes but not a spike of one or two samples,
 where there is none. The scale is local, because a resting arm is quieter than a moving one.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from ...arrays import Matrix, Samples, Series, Vector
@@ -25,15 +27,25 @@ class Spikes:
         self._runs = {channel: [Runs() for _ in range(joints)] for channel in SMALLEST_SHARE}
         self._largest = {channel: np.zeros(joints) for channel in SMALLEST_SHARE}
 
-    def update(self, stretch: Stretch) -> None:
-        """Take the next stretch into account: all samples that have two neighbours on either side by now."""
+    def taken_from(self, stretch: Stretch) -> Stretch:
+        """Note the samples that stand apart, and give the stretch with medians in their place.
+
+        The first and last two samples have too few neighbours; the next stretch gives the last ones again.
+        """
+        usual = dict(stretch.channels)
         for channel, values in (("position", stretch.position), ("torque", stretch.torque)):
             if values is None or values.shape[1] < 5:
                 continue
-            distance = np.abs(values[:, 2:-2] - median_of_five(values))
+            medians = median_of_five(values)
+            distance = np.abs(values[:, 2:-2] - medians)
             limits = _limits(values, distance, SMALLEST_SHARE[channel])
-            for joint in np.flatnonzero(distance.max(axis=1) > limits):
+            spikes = distance > limits[:, None]
+            for joint in np.flatnonzero(spikes.any(axis=1)):
                 self._note(channel, int(joint), distance[joint], limits[joint], stretch.time[2:-2])
+            if spikes.any():
+                usual[channel] = values.copy()
+                usual[channel][:, 2:-2][spikes] = medians[spikes]
+        return replace(stretch, channels=usual)
 
     def _note(self, channel: str, joint: int, distance: Samples, limit: float, time: Samples) -> None:
         runs = self._runs[channel][joint]
@@ -48,10 +60,11 @@ class Spikes:
             for joint, runs in enumerate(all_runs):
                 if runs.rows:
                     largest, span = self._largest[channel][joint], facts.span(channel)[joint]
+                    unit = facts.units[channel][joint]
                     statement = (
                         f"Joint {joint + 1}'s {channel} stands apart from its neighbours in "
-                        f"{count_text(runs.rows, 'sample')}, by up to {largest:.3g} "
-                        f"{facts.units[channel][joint]} ({100.0 * largest / span:.3g} % of its range)."
+                        f"{count_text(runs.rows, 'sample')}, by up to {largest:.3g} {unit}; "
+                        f"it spans {span:.3g} {unit} otherwise."
                     )
                     found.append(Defect("outliers", channel, joint + 1, runs.rows, runs.intervals, statement))
         return found

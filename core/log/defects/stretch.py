@@ -74,6 +74,7 @@ class Facts:
     """Median step of the stamps, s."""
     low: dict[str, JointVector]
     high: dict[str, JointVector]
+    """Extremes of each channel, joint by joint, with medians in the place of spikes."""
     deviation: dict[str, JointVector]
     roughness: JointVector
     """Von Neumann's ratio of each joint's positions: mean square of the steps over the variance."""

@@ -236,6 +236,15 @@ def test_a_position_spike_is_found_at_its_sample(row, joint):
     assert (spike.channel, spike.joint, spike.intervals) == ("position", joint + 1, ((time[row], time[row]),))
 
 
+def test_a_position_that_no_joint_ever_reached_is_no_reason_to_doubt_its_unit():
+    time, position, torque = healthy()
+    span = np.ptp(position[:, 0])
+    position[2500, 0], torque[2600, 1] = 1e3, -1e7
+    by_channel = {defect.channel: defect for defect in log_of(time, position, torque).defects}
+    assert {defect.kind for defect in by_channel.values()} == {"outliers"}
+    assert f"it spans {span:.3g} rad otherwise" in by_channel["position"].statement
+
+
 def test_steps_of_torque_as_friction_makes_them_are_no_spikes():
     time, position, torque = healthy()
     torque += 5.0 * np.sign(np.gradient(position, axis=0))
