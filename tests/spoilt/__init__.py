@@ -1,0 +1,1 @@
+"""Spoil the values of sound logs, and count the false causes."""
