@@ -48,6 +48,7 @@ class Defect:
     count: int
     intervals: tuple[tuple[float, float], ...]
     statement: str
+    level: float | None
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,7 @@ class Log:
 
 def _defect(document: Document) -> Defect:
     return Defect(
-        **{name: document[name] for name in ("kind", "channel", "joint", "count", "statement")},
+        **{name: document[name] for name in ("kind", "channel", "joint", "count", "statement", "level")},
         intervals=tuple((float(start), float(end)) for start, end in document["intervals"]),
     )
 

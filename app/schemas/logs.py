@@ -17,6 +17,9 @@ class Defect(Open):
     count: Annotated[int, about("number of affected samples")]
     intervals: Annotated[list[list[float]], about("start and end in s, at most twenty")]
     statement: str
+    level: Annotated[
+        float | None, about("where a saturated channel stays, in its SI unit; null for other defects")
+    ]
 
 
 class LogSummary(Open):

@@ -124,7 +124,9 @@ def _assigned_defect(defect: Defect, assignment: Assignment) -> Defect:
     if defect.joint is None:
         return replace(defect, intervals=intervals)
     like = assignment.position if defect.channel in _LIKE_POSITION else assignment.torque
-    return replace(defect, intervals=intervals, joint=like.source.index(defect.joint - 1) + 1)
+    joint = like.source.index(defect.joint - 1)
+    level = None if defect.level is None else defect.level * like.factor[joint]
+    return replace(defect, intervals=intervals, joint=joint + 1, level=level)
 
 
 def _assigned_binding(binding: Binding, assignment: Assignment) -> Binding:

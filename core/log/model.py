@@ -35,6 +35,8 @@ class Defect:
         everywhere.
     statement
         One sentence with numbers and units.
+    level
+        The value at which a saturated channel stays, in the channel's SI unit; None for all else.
     """
 
     kind: str
@@ -43,6 +45,7 @@ class Defect:
     count: int
     intervals: tuple[tuple[float, float], ...]
     statement: str
+    level: float | None = None
 
 
 @dataclass(frozen=True, eq=False)

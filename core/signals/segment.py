@@ -35,6 +35,8 @@ STILL_SECONDS = 0.2
 END_SHARE = 1e-3
 _NEIGHBOURS = 40
 """Samples on either side of a stretch that its spline is laid through; further ones change nothing."""
+ROUNDING = 1e-9
+"""Share of a limit by which a value at it may be off after conversion of units."""
 UNUSABLE_SHARE = 0.05
 """A kept instant is left out when more of the parallel filter's mass than this falls on unusable samples."""
 
@@ -102,7 +104,7 @@ class Segment:
         state = MotionState(
             wide.position[inner], wide.velocity[inner], wide.acceleration[inner], now, self._temperature(now)
         )
-        marks = (self._unusable(wide.velocity, early) | unknown[:, None])[inner]
+        marks = (self._unusable(wide.velocity, early) | self._at_a_limit(torque) | unknown[:, None])[inner]
         turns = self._undirected(wide.velocity)[inner]
         unusable, turning = (
             self.parallel.influence(mask.T.astype(float), first - begin, last_kept - first_kept).T
@@ -182,6 +184,15 @@ class Segment:
         ends: SampleMask = (index < self.reach) | (index >= self.samples - self.reach)
         slow = np.abs(velocity) <= self.recipe.still_speed
         return np.asarray(ends[:, None] | _long_runs(slow, self.still_samples) | self._unmeasured)
+
+    def _at_a_limit(self, effort: JointSeries) -> JointMask:
+        """Mark the efforts at the limit of a channel that saturates: the true ones may lie beyond."""
+        marks = np.zeros(effort.shape, dtype=bool)
+        for defect in self.log.defects:
+            if defect.level is not None and defect.joint is not None:
+                beyond = effort[:, defect.joint - 1] / defect.level
+                marks[:, defect.joint - 1] |= beyond > 1.0 - ROUNDING
+        return marks
 
     def _undirected(self, velocity: JointSeries) -> JointMask:
         """Mark the samples at which it is not known which way a joint moves, nor so its friction.

@@ -89,5 +89,15 @@ class Saturation:
                     f"{facts.units['torque'][joint]} for {runs.rows} of {facts.samples} samples, as a "
                     "limited or clipped signal does."
                 )
-                found.append(Defect("saturation", "torque", joint + 1, runs.rows, runs.intervals, statement))
+                found.append(
+                    Defect(
+                        "saturation",
+                        "torque",
+                        joint + 1,
+                        runs.rows,
+                        runs.intervals,
+                        statement,
+                        level=sign * limit.top,
+                    )
+                )
         return found

@@ -51,9 +51,14 @@ def hung(_rng, position, _torque):
     return "stuck_channel"
 
 
+def clipped(_rng, _position, torque):
+    torque[:, 2] = np.clip(torque[:, 2], *(0.85 * np.abs(torque[:, 2]).max() * np.array([-1.0, 1.0])))
+    return "saturation"
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("hidden", [None, spring], ids=["nothing", "spring"])
-@pytest.mark.parametrize("spoil", [spikes, frozen, stalled, dead, deaf, hung])
+@pytest.mark.parametrize("spoil", [spikes, frozen, stalled, dead, deaf, hung, clipped])
 def test_a_defect_of_the_log_neither_hides_a_cause_nor_makes_one(spoil, hidden):
     rows = measured_arm(hidden, seconds=14.0).dataset.motions[0].log.source.data
     position, torque = rows.position.copy(), rows.torque.copy()
