@@ -18,7 +18,11 @@ class Defect(Open):
     intervals: Annotated[list[list[float]], about("start and end in s, at most twenty")]
     statement: str
     level: Annotated[
-        float | None, about("where a saturated channel stays, in its SI unit; null for other defects")
+        float | None,
+        about(
+            "SI: where a saturated channel stays, or how far from the median of five samples an outlier lies "
+            "at least; null for other defects"
+        ),
     ]
 
 

@@ -125,8 +125,13 @@ def _assigned_defect(defect: Defect, assignment: Assignment) -> Defect:
         return replace(defect, intervals=intervals)
     like = assignment.position if defect.channel in _LIKE_POSITION else assignment.torque
     joint = like.source.index(defect.joint - 1)
-    level = None if defect.level is None else defect.level * like.factor[joint]
+    level = None if defect.level is None else defect.level * _factor(defect, like.factor[joint])
     return replace(defect, intervals=intervals, joint=joint + 1, level=level)
+
+
+def _factor(defect: Defect, factor: float) -> float:
+    """Give the factor of a level; a distance has no sign."""
+    return factor if defect.kind == "saturation" else abs(factor)
 
 
 def _assigned_binding(binding: Binding, assignment: Assignment) -> Binding:

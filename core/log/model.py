@@ -36,7 +36,8 @@ class Defect:
     statement
         One sentence with numbers and units.
     level
-        The value at which a saturated channel stays, in the channel's SI unit; None for all else.
+        Where a saturated channel stays, or how far from the median of five a sample stands apart, in the
+        channel's SI unit; None for all else.
     """
 
     kind: str

@@ -10,10 +10,12 @@ look absurd any more.
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from ..arrays import Instants, InstantSeries, JointSeries, SampleMask, Samples
-from ..log.model import STANDING_ROWS, LogRows, repeated_rows
-from .derivative import absurd_reach, continued, without_absurd
+from ..arrays import Instants, InstantSeries, JointSeries, JointVector, SampleMask, Samples
+from ..log.model import STANDING_ROWS, LogRows, repeated_rows, rows_at
+from .derivative import absurd_reach, continued, median, without_absurd
 
+MEDIAN_ORDER = 5
+"""Of the median from which a spike's distance is measured, as when the log's spikes were found."""
 UNIFORM_TOLERANCE = 1e-3
 """Stamps that deviate from a uniform clock by less than a thousandth of a step are uniform."""
 
@@ -49,10 +51,19 @@ def positions_on(grid: Instants, rows: LogRows, median_order: int) -> InstantSer
     return np.asarray(CubicSpline(time, position, axis=0)(grid))
 
 
-def efforts_on(grid: Instants, rows: LogRows) -> InstantSeries:
-    """Interpolate torques (or currents) at the instants of a grid inside the rows' time span."""
+def efforts_on(grid: Instants, rows: LogRows, limits: JointVector) -> InstantSeries:
+    """Interpolate torques (or currents), without spikes, at instants inside the rows' time span."""
     fresh = ~dropped_mask(rows)
-    return linear(grid, rows.time[fresh], effort_of(rows)[fresh])
+    return linear(grid, rows.time[fresh], plausible_effort(rows_at(rows, fresh), limits))
+
+
+def plausible_effort(rows: LogRows, limits: JointVector) -> JointSeries:
+    """Put medians of five samples in the place of efforts that lie further from these than their limit."""
+    effort = effort_of(rows)
+    if not np.isfinite(limits).any() or len(effort) < MEDIAN_ORDER:
+        return effort
+    medians = median(continued(effort, MEDIAN_ORDER // 2), MEDIAN_ORDER)
+    return np.asarray(np.where(np.abs(effort - medians) > limits, medians, effort))
 
 
 def effort_of(rows: LogRows) -> JointSeries:

@@ -20,11 +20,11 @@ from .parallel import ParallelFilter, Tile
 from .recipe import Recipe, is_usable
 from .resample import (
     dropped_mask,
-    effort_of,
     efforts_on,
     gap_mask,
     is_uniform,
     linear,
+    plausible_effort,
     positions_on,
     without_spikes,
 )
@@ -35,6 +35,7 @@ STILL_SECONDS = 0.2
 END_SHARE = 1e-3
 _NEIGHBOURS = 40
 """Samples on either side of a stretch that its spline is laid through; further ones change nothing."""
+EFFORT_SPIKES = (("outliers", "torque"), ("outliers", "current"))
 ROUNDING = 1e-9
 """Share of a limit by which a value at it may be off after conversion of units."""
 UNUSABLE_SHARE = 0.05
@@ -152,7 +153,8 @@ class Segment:
         if dropped_mask(rows).any():
             return self._interpolate(rows, rows.time[inner])
         position = without_spikes(rows.position, self.recipe.median_order)
-        return position[inner], effort_of(rows)[inner], np.zeros(end - begin, dtype=bool)
+        effort = plausible_effort(rows, self._effort_limits)
+        return position[inner], effort[inner], np.zeros(end - begin, dtype=bool)
 
     def _rows(self, begin: int, end: int) -> tuple[LogRows, int]:
         """Read some rows with all neighbours that bear on them; count those before them."""
@@ -164,7 +166,8 @@ class Segment:
         """Interpolate at the instants of a grid; copied rows count as a gap in the stamps."""
         bridge = longest_bridge(1.0 / self.rate_hz, self.recipe.motion_band_hz)
         unknown = gap_mask(rows, grid, max(bridge, GAP_STEPS / self.rate_hz))
-        return positions_on(grid, rows, self.recipe.median_order), efforts_on(grid, rows), unknown
+        position = positions_on(grid, rows, self.recipe.median_order)
+        return position, efforts_on(grid, rows, self._effort_limits), unknown
 
     def _temperature(self, now: Instants) -> InstantSeries | None:
         if "temperature" not in self.log.channels:
@@ -189,7 +192,7 @@ class Segment:
         """Mark the efforts at the limit of a channel that saturates: the true ones may lie beyond."""
         marks = np.zeros(effort.shape, dtype=bool)
         for defect in self.log.defects:
-            if defect.level is not None and defect.joint is not None:
+            if defect.kind == "saturation" and defect.level is not None and defect.joint is not None:
                 beyond = effort[:, defect.joint - 1] / defect.level
                 marks[:, defect.joint - 1] |= beyond > 1.0 - ROUNDING
         return marks
@@ -206,6 +209,15 @@ class Segment:
             own = _changes_sign(velocity @ self.motors.T, np.sqrt(self.motors**2 @ still**2))
             marks |= (own.astype(float) @ (self.motors != 0.0)) > 0.0
         return np.asarray(maximum_filter1d(marks, 2 * self.direction_samples + 1, axis=0, mode="constant"))
+
+    @cached_property
+    def _effort_limits(self) -> JointVector:
+        """Give, per joint, how far from the median of its neighbours an effort is a spike."""
+        limits = np.full(self.log.joints, np.inf)
+        for defect in self.log.defects:
+            if (defect.kind, defect.channel) in EFFORT_SPIKES and defect.joint is not None:
+                limits[defect.joint - 1] = defect.level
+        return limits
 
     @cached_property
     def _unmeasured(self) -> np.ndarray:

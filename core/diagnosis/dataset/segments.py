@@ -9,15 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_array
 
-from ...arrays import Indices, JointMask, JointSeries
-from ...log.model import Defect, JointLog
+from ...arrays import Indices, JointMask
 from ...robot.model import RobotModel
 from ...signals.condition import Motion
 from ...signals.parallel import ParallelFilter
 from ...signals.segment import Segment
 from ...signals.state import MotionState
 from ..thresholds.dataset import BAND, ROWS
-from .spikes import without_spikes
 from .stiction import rest_mask, stiction_columns
 from .stretch import Stretch
 
@@ -76,23 +74,11 @@ def _segment(
         sticking=stiction_columns(stretch, rest_mask(state, robot, still), recipe.cutoff_hz),
         time=tile.time,
         block=np.minimum((fraction * motion.blocks).astype(int), motion.blocks - 1),
-        torque=tile.filtered(np.ascontiguousarray(_torque_without_spikes(motion.log, tile.torque).T)).T,
+        torque=tile.filtered(np.ascontiguousarray(tile.torque.T)).T,
         usable=tile.usable & settled[:, None],
         clear=_clear(rest_mask(tile.state, robot, still), at, segment.rate_hz / recipe.cutoff_hz),
         state=tile.state.at(at),
     )
-
-
-def _torque_without_spikes(log: JointLog, torque: JointSeries) -> JointSeries:
-    """Give torque without the spikes of those joints whose channel is known to have some."""
-    own = [defect.joint - 1 for defect in log.defects if _is_outlier(defect) and defect.joint is not None]
-    torque = torque.copy()
-    torque[:, own] = without_spikes(torque[:, own])
-    return torque
-
-
-def _is_outlier(defect: Defect) -> bool:
-    return (defect.kind, defect.channel) == ("outliers", "torque")
 
 
 def thinning(rate_hz: float, cutoff_hz: float) -> int:

@@ -29,14 +29,6 @@ def has_spike(log: JointLog, span: Span) -> bool:
     return bool(spikes[inside].any())
 
 
-def without_spikes(torque: JointSeries) -> JointSeries:
-    """Put the running median in the place of spikes; all other samples stay as they are."""
-    if len(torque) <= ROWS.spike_order:
-        return torque
-    middle, spikes = _median_and_spikes(torque)
-    return np.where(spikes, middle, torque)
-
-
 def _median_and_spikes(torque: JointSeries) -> tuple[JointSeries, JointMask]:
     """Give the running median, and mark what stands apart from it; the ends are their own."""
     reach = ROWS.spike_order // 2

@@ -7,25 +7,30 @@ where there is none. The scale is local, because a resting arm is quieter than a
 from dataclasses import replace
 
 import numpy as np
+from jaxtyping import Bool
 
-from ...arrays import Matrix, Samples, Series, Vector
+from ...arrays import Matrix, Series, Vector
 from ..model import Defect
 from .runs import Runs
 from .stretch import Facts, Stretch, count_text
 
-SMALLEST_SHARE = {"position": 1e-3, "torque": 0.05}
+SMALLEST_SHARE = {"position": 1e-3, "torque": 0.05, "current": 0.05}
 """Smaller jumps, as a share of the channel's range, are noise to everything that follows."""
 NOISE_FACTOR = 20.0
 INCREMENT_FACTOR = 4.0
 RESOLUTION_FACTOR = 3.0
+Marks = Bool[np.ndarray, "rows columns"]
+ROUNDS = 5
+"""The largest spikes raise the mean distance; so often it is taken anew without those that are known."""
 
 
 class Spikes:
-    """Count the samples that stand apart in position and torque."""
+    """Count the samples that stand apart in position, torque and current."""
 
     def __init__(self, joints: int) -> None:
         self._runs = {channel: [Runs() for _ in range(joints)] for channel in SMALLEST_SHARE}
         self._largest = {channel: np.zeros(joints) for channel in SMALLEST_SHARE}
+        self._limits = {channel: np.full(joints, np.inf) for channel in SMALLEST_SHARE}
 
     def taken_from(self, stretch: Stretch) -> Stretch:
         """Note the samples that stand apart, and give the stretch with medians in their place.
@@ -33,25 +38,23 @@ class Spikes:
         The first and last two samples have too few neighbours; the next stretch gives the last ones again.
         """
         usual = dict(stretch.channels)
-        for channel, values in (("position", stretch.position), ("torque", stretch.torque)):
+        for channel, smallest_share in SMALLEST_SHARE.items():
+            values = stretch.channels.get(channel)
             if values is None or values.shape[1] < 5:
                 continue
             medians = median_of_five(values)
-            distance = np.abs(values[:, 2:-2] - medians)
-            limits = _limits(values, distance, SMALLEST_SHARE[channel])
-            spikes = distance > limits[:, None]
+            spikes, limits = _apart(values, medians, smallest_share)
             for joint in np.flatnonzero(spikes.any(axis=1)):
-                self._note(channel, int(joint), distance[joint], limits[joint], stretch.time[2:-2])
-            if spikes.any():
-                usual[channel] = values.copy()
-                usual[channel][:, 2:-2][spikes] = medians[spikes]
+                distance = np.abs(values[joint, 2:-2] - medians[joint])[spikes[joint]]
+                self._note(channel, int(joint), float(distance.max()), float(limits[joint]))
+                self._runs[channel][joint].feed(spikes[joint], stretch.time[2:-2])
+                self._runs[channel][joint].close()
+            usual[channel] = _replaced(values, medians, spikes)
         return replace(stretch, channels=usual)
 
-    def _note(self, channel: str, joint: int, distance: Samples, limit: float, time: Samples) -> None:
-        runs = self._runs[channel][joint]
-        runs.feed(distance > limit, time)
-        runs.close()
-        self._largest[channel][joint] = max(self._largest[channel][joint], float(distance.max()))
+    def _note(self, channel: str, joint: int, distance: float, limit: float) -> None:
+        self._largest[channel][joint] = max(self._largest[channel][joint], distance)
+        self._limits[channel][joint] = min(self._limits[channel][joint], limit)
 
     def defects(self, facts: Facts) -> list[Defect]:
         """State the spikes, channel by channel and joint by joint."""
@@ -66,8 +69,32 @@ class Spikes:
                         f"{count_text(runs.rows, 'sample')}, by up to {largest:.3g} {unit}; "
                         f"it spans {span:.3g} {unit} otherwise."
                     )
-                    found.append(Defect("outliers", channel, joint + 1, runs.rows, runs.intervals, statement))
+                    level = float(self._limits[channel][joint])
+                    where = (joint + 1, runs.rows, runs.intervals)
+                    found.append(Defect("outliers", channel, *where, statement, level))
         return found
+
+
+def _apart(values: Series, medians: Matrix, smallest_share: float) -> tuple[Marks, Vector]:
+    """Mark the samples that stand apart, and give the limits beyond which they do."""
+    distance = np.abs(values[:, 2:-2] - medians)
+    limits = _limits(values, distance, smallest_share)
+    spikes = distance > limits[:, None]
+    for _ in range(ROUNDS if spikes.any() else 0):
+        limits = _limits(_replaced(values, medians, spikes), np.where(spikes, 0.0, distance), smallest_share)
+        more = distance > limits[:, None]
+        if not np.any(more & ~spikes):
+            break
+        spikes |= more
+    return spikes, limits
+
+
+def _replaced(values: Series, medians: Matrix, spikes: Marks) -> Series:
+    if not spikes.any():
+        return values
+    usual = values.copy()
+    usual[:, 2:-2][spikes] = medians[spikes]
+    return usual
 
 
 def median_of_five(values: Series) -> Matrix:

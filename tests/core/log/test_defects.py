@@ -245,6 +245,14 @@ def test_a_position_that_no_joint_ever_reached_is_no_reason_to_doubt_its_unit():
     assert f"it spans {span:.3g} rad otherwise" in by_channel["position"].statement
 
 
+def test_a_huge_spike_hides_no_smaller_ones():
+    time, position, torque = healthy()
+    torque[[1000, 2000, 3000, 4000], 0] += [1e7, -1e5, 1e3, 30.0]
+    (spikes,) = only(log_of(time, position, torque), "outliers")
+    assert spikes.count == 4
+    assert spikes.level < 30.0
+
+
 def test_steps_of_torque_as_friction_makes_them_are_no_spikes():
     time, position, torque = healthy()
     torque += 5.0 * np.sign(np.gradient(position, axis=0))

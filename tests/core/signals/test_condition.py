@@ -219,6 +219,18 @@ def test_a_single_absurd_position_does_not_reach_the_motion():
     assert np.max(np.abs(clean - _kept(_conditioned(log_of(time, spoilt), SMOOTH))[1])[0]) > 0.1
 
 
+@pytest.mark.parametrize("stamped", [False, True], ids=["even clock", "scattered stamps"])
+def test_a_spike_of_a_torque_does_not_reach_what_is_fitted(stamped):
+    time, swing = _swing()
+    if stamped:
+        time = jittered(np.random.default_rng(2), len(time), RATE_HZ, 0.3)
+    position, torque = swing.position(time), np.cos(swing.position(time))
+    clean = _filtered(_conditioned(log_of(time, position, torque)))[0]
+    spoilt = torque.copy()
+    spoilt[[1000, 3333], [0, 1]] += [1e6, -3.0]
+    assert np.max(np.abs(clean - _filtered(_conditioned(log_of(time, position, spoilt)))[0])) < 1e-3
+
+
 def test_a_log_of_another_robot_is_refused():
     time, swing = _swing(4.0)
     with pytest.raises(LogError) as refusal:

@@ -7,6 +7,8 @@ from tests.core.signals.motions import jittered
 from veritorque.core.log.model import LogRows
 from veritorque.core.signals.resample import efforts_on, is_uniform, positions_on, uniform_positions
 
+NO_LIMITS = np.full(1, np.inf)
+
 
 def test_samples_on_a_uniform_clock_are_not_touched():
     time = 3.0 + np.arange(100) / 250.0
@@ -42,7 +44,7 @@ def test_a_smooth_motion_is_recovered_between_jittered_stamps():
     time = jittered(np.random.default_rng(2), 500, 100.0, 0.4)
     rows = LogRows(time, np.sin(3.0 * time)[:, None], np.cos(time)[:, None])
     grid = np.arange(10, 490) / 100.0
-    position, torque = positions_on(grid, rows, 5), efforts_on(grid, rows)
+    position, torque = positions_on(grid, rows, 5), efforts_on(grid, rows, NO_LIMITS)
     assert np.max(np.abs(position[:, 0] - np.sin(3.0 * grid))) < 1e-6
     assert np.max(np.abs(torque[:, 0] - np.cos(grid))) < 1e-4
 
@@ -62,5 +64,5 @@ def test_rows_that_differ_only_in_current_are_measurements():
     position = np.zeros((400, 1))
     current = np.random.default_rng(5).normal(size=(400, 1))
     grid = time[50:350]
-    effort = efforts_on(grid, LogRows(time, position, current=current))
+    effort = efforts_on(grid, LogRows(time, position, current=current), NO_LIMITS)
     assert np.max(np.abs(effort - current[50:350])) < 1e-12
