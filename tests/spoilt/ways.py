@@ -136,7 +136,8 @@ def gap(table: Table, rng: np.random.Generator) -> Table:
 
 def doubled_rows(table: Table, rng: np.random.Generator) -> Table:
     """Write some rows twice, stamps and all."""
-    return table.at(np.sort(np.r_[np.arange(len(table.time)), _some_rows(table, rng, 20)]))
+    doubled = np.sort(np.r_[np.arange(len(table.time)), _some_rows(table, rng, 20)])
+    return table.at(doubled).telling("dropped_samples")
 
 
 def restarted_time(table: Table, rng: np.random.Generator) -> Table:
