@@ -41,7 +41,6 @@ from .search.restarts import restart_at_operating_point, restart_from_common_cau
 from .search.state import SearchState
 from .search.stepwise import confirm, continue_search, search_stepwise
 from .thresholds.checks import VERDICT
-from .thresholds.search import ENTRY
 
 Progress = Callable[[str, float], None]
 
@@ -215,7 +214,7 @@ def _not_identifiable(found: SearchState) -> tuple[NotIdentifiable, ...]:
     open_sites: dict[str, list[int]] = {}
     by_id = {cause.id: cause for cause in found.fitter.causes}
     for scored in found.fitter.scan(found.none):
-        if scored.clear_share < ENTRY.open:
+        if not scored.visible:
             open_sites.setdefault(scored.candidate.cause.id, []).extend(scored.candidate.site)
     return tuple(
         NotIdentifiable(

@@ -68,8 +68,8 @@ class DroppedSamples(SampleCheck):
                 statement=(
                     f"Dropped samples: {lost} of {rows} rows ({100.0 * fraction:.3g} %) repeat all positions "
                     "and torques of the row before while the robot moves; they are left out and "
-                    f"interpolated. Taken for measurements they would leave {percent_more(kept[worst])} more RMS error on "
-                    f"joint {worst + 1}"
+                    "interpolated. Taken for measurements they would leave "
+                    f"{percent_more(kept[worst])} more RMS error on joint {worst + 1}"
                 ),
                 statistic=float(lost),
                 p_value=p_value,

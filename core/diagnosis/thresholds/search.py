@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from .causes import LINEARISATION
+
 
 @dataclass(frozen=True)
 class Selection:
@@ -40,9 +42,9 @@ class Entry:
     Source: the fits of all candidates of 86 simulated logs, docs/decisions.md."""
     besides: float = 500.0
     """Likelihood ratio that the fit may bring beyond that factor. Source: as for `raised`."""
-    open: float = 1e-3
+    open: float = LINEARISATION.usual**2
     """Share of a candidate's squared columns outside the span of the model below which it is not
-    identifiable."""
+    identifiable. Source: what columns leave clear has to be more than what they err by."""
 
 
 @dataclass(frozen=True)
