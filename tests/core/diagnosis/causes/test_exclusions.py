@@ -10,8 +10,10 @@ from tests.core.dynamics.terms.motions import swinging
 from tests.core.estimate.worlds import true_parameters
 from veritorque.core.diagnosis.causes.encoder_eccentricity import EncoderEccentricity
 from veritorque.core.diagnosis.causes.encoder_offset import EncoderOffset
+from veritorque.core.diagnosis.causes.exclusion import EXCLUSIONS, GENERAL
+from veritorque.core.diagnosis.causes.guide import guide
 from veritorque.core.diagnosis.causes.protocol import FittedCause, Setting
-from veritorque.core.diagnosis.causes.registry import CAUSES
+from veritorque.core.diagnosis.causes.registry import BY_ID, CAUSES
 from veritorque.core.diagnosis.causes.torque_gain import TorqueGain
 from veritorque.core.diagnosis.causes.torque_saturation import TorqueSaturation
 from veritorque.core.diagnosis.dataset.dataset import build_dataset
@@ -97,3 +99,10 @@ def test_a_size_that_is_admissible_is_no_larger_than_the_largest(cause):
 
     assert cause.admissible(solved(0.9 * cause.traits.largest))
     assert not cause.admissible(solved(1.1 * cause.traits.largest))
+
+
+def test_the_list_of_exclusions_is_of_known_causes_and_stands_in_the_guide():
+    page = guide()
+    assert all(entry.cause in BY_ID for entry in EXCLUSIONS)
+    assert all(entry.where in page and entry.law in page for entry in EXCLUSIONS)
+    assert all(f"- {law}" in page for law in GENERAL)
