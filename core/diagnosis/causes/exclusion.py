@@ -20,12 +20,10 @@ class Exclusion:
 
 
 GENERAL: tuple[str, ...] = (
-    "its torque exceeds all the torque of its joint, RMS: another column cancels it along a direction that "
-    "the motion leaves open",
+    "its torque exceeds all of its joint's torque: another column cancels it where the motion leaves it open",
     "none of its numbers exceeds its own standard deviation",
     "what the model's parameters leave of its columns is no more than the columns err by",
-    "the log leaves its size open beyond the largest that a robot can have, as the zero of a vertical first "
-    "joint, on which no torque depends",
+    "its size is open beyond the largest there can be, as a vertical first joint's zero: no torque has it",
     "its sign or size is one of those below",
 )
 """Where no cause is named."""

@@ -67,7 +67,7 @@ def test_a_gain_can_be_shown_where_other_joints_know_the_load():
 
 
 @pytest.mark.parametrize(("share", "excluded"), [(0.6, True), (0.9, True), (0.99, False), (1.0, False)])
-def test_a_limit_that_the_motion_exceeds_is_none(share: float, excluded: bool):
+def test_a_limit_that_the_motion_exceeds_is_none(share, excluded):
     look = scene(0.4)
     applied = look.operating_point.applied(look.dataset.state)[:, 1]
     limit = share * float(np.abs(applied).max())
