@@ -223,7 +223,7 @@ def _not_identifiable(found: SearchState) -> tuple[NotIdentifiable, ...]:
     open_sites: dict[str, list[int]] = {}
     by_id = {cause.id: cause for cause in found.fitter.causes}
     for scored in found.fitter.scan(found.none):
-        if not scored.visible:
+        if not scored.identifiable:
             open_sites.setdefault(scored.candidate.cause.id, []).extend(scored.candidate.site)
     return tuple(
         NotIdentifiable(

@@ -115,7 +115,8 @@ def _kinds(fitter: HypothesisFitter) -> list[list[Candidate]]:
 
 
 def _shown(candidate: Candidate, score: Score, fit: Fit, kinds: int) -> Shown:
-    visible = score.clear_share >= ENTRY.open and is_determined(candidate.cause, score)
+    least = max(ENTRY.open, candidate.cause.traits.least_clear)
+    visible = score.clear_share >= least and is_determined(candidate.cause, score)
     smallest = _smallest(candidate, score, fit, kinds) if visible else None
     return Shown(candidate.cause, candidate.site, visible, smallest)
 

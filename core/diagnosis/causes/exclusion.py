@@ -1,7 +1,7 @@
 """State what the structure of robot, motion and channel excludes, cause by cause, with the law behind it.
 
 Bounds of signs and sizes are each cause's `admissible`, what the motion refutes is its `contradicted`, and
-what no size could show is the search's `ScoredCandidate.visible`. This is the list that a user reads.
+what no size could show is the search's `ScoredCandidate.possible`. This is the list that a user reads.
 """
 
 from dataclasses import dataclass
@@ -22,7 +22,6 @@ class Exclusion:
 GENERAL: tuple[str, ...] = (
     "its torque exceeds all of its joint's torque: another column cancels it where the motion leaves it open",
     "none of its numbers exceeds its own standard deviation",
-    "what the model's parameters leave of its columns is no more than the columns err by",
     "its size is open beyond the largest there can be, as a vertical first joint's zero: no torque has it",
     "its sign or size is one of those below",
 )

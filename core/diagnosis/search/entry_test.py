@@ -69,7 +69,7 @@ def _admissible_scans(
     return [
         scored
         for scored in fitter.scan(now)
-        if scored.visible and scored.candidate.key not in taken and scored.candidate.cause.id not in excluded
+        if scored.possible and scored.candidate.key not in taken and scored.candidate.cause.id not in excluded
     ]
 
 

@@ -76,9 +76,14 @@ class ScoredCandidate:
     """Whether the rows leave one of its linear parameters less open than the largest size of its cause."""
 
     @property
-    def visible(self) -> bool:
-        """Tell whether the log can show it: of its columns, and of its size."""
-        return self.determined and self.clear_share >= ENTRY.open
+    def possible(self) -> bool:
+        """Tell whether the structure of robot and motion lets the log show it at all."""
+        return self.determined and self.clear_share >= self.candidate.cause.traits.least_clear
+
+    @property
+    def identifiable(self) -> bool:
+        """Tell whether the model's parameters cannot stand for it."""
+        return self.possible and self.clear_share >= ENTRY.open
 
     @cached_property
     def log_p(self) -> float:

@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass
 
-from .causes import LINEARISATION
-
 
 @dataclass(frozen=True)
 class Selection:
@@ -42,9 +40,9 @@ class Entry:
     Source: the fits of all candidates of 86 simulated logs, docs/decisions.md."""
     besides: float = 500.0
     """Likelihood ratio that the fit may bring beyond that factor. Source: as for `raised`."""
-    open: float = LINEARISATION.usual**2
+    open: float = 1e-3
     """Share of a candidate's squared columns outside the span of the model below which it is not
-    identifiable. Source: what columns leave clear has to be more than what they err by."""
+    identifiable."""
 
 
 @dataclass(frozen=True)
