@@ -12,6 +12,7 @@ import numpy as np
 
 from ..arrays import BlockKey, JointSeries
 from ..dynamics.model import DynamicModel
+from ..dynamics.prediction import Prediction
 from ..identification.reference import Reference
 from ..log.model import JointLog
 from ..log.shifted import with_later_effort
@@ -22,6 +23,7 @@ from .causes.registry import AGAINST_REFERENCE, CAUSES, SAMPLE_CHECKS
 from .checks.alternatives import Comparison, compare_alternatives
 from .checks.bursts import burst
 from .checks.change_points import switching_candidates
+from .checks.clipped_channel import ClippedChannel, clipped_channels
 from .checks.contact_at_rest import contacts_at_rest
 from .checks.findings import finding, sample_finding
 from .checks.holdout_outliers import Explained, has_holdout_outliers, with_other_holdout, with_typical_holdout
@@ -33,7 +35,7 @@ from .residual.learner import Predictable, predictable_share
 from .result import Diagnosis, Finding, NotIdentifiable, UnnamedPattern, Verdict
 from .search.alignment import restart_from_alignment
 from .search.fitter import HypothesisFitter, hypothesis_fitter
-from .search.hypothesis import Candidate
+from .search.hypothesis import Candidate, Hypothesis
 from .search.likelihood_ratio import likelihood_ratio, log_p
 from .search.motion_band import drop_what_motion_does_not_show
 from .search.residuals import residual, stiction_share
@@ -41,7 +43,6 @@ from .search.restarts import restart_at_operating_point, restart_from_common_cau
 from .search.state import SearchState
 from .search.stepwise import confirm, continue_search, search_stepwise
 from .thresholds.checks import VERDICT
-from .thresholds.search import ENTRY
 
 Progress = Callable[[str, float], None]
 
@@ -185,7 +186,7 @@ def _check_samples(problem: DiagnosisProblem) -> tuple[list[Finding], Dataset]:
         fitter, found = _plain_fit(problem, dataset)
         plain.append((fitter, found))
         noise = tuple(joint.noise for joint in found.fit.joints)
-        fits.append((dataset, fitter.linearised_at(found).operating_point, noise))
+        fits.append((dataset, _operating_point(fitter, found), noise))
         return fits[-1]
 
     dataset, _, _ = limit_bandwidth(fit_at)
@@ -197,7 +198,14 @@ def _check_samples(problem: DiagnosisProblem) -> tuple[list[Finding], Dataset]:
     ]
     pushes = contacts_at_rest(wide, operating_point)
     faults += [sample_finding(ExternalContact(), push, wide) for push in pushes]
+    clipped = clipped_channels(wide, lambda rest: _operating_point(*_plain_fit(problem, rest)))
+    faults += [sample_finding(ClippedChannel(), limit, wide) for limit in clipped]
     return faults, with_typical_holdout(dataset, plain[-1], partial(_plain_fit, problem))
+
+
+def _operating_point(fitter: HypothesisFitter, found: Hypothesis) -> Prediction:
+    """Give the prediction of a hypothesis."""
+    return fitter.linearised_at(found).operating_point
 
 
 def _plain_fit(problem: DiagnosisProblem, dataset: Dataset) -> Explained:
@@ -215,7 +223,7 @@ def _not_identifiable(found: SearchState) -> tuple[NotIdentifiable, ...]:
     open_sites: dict[str, list[int]] = {}
     by_id = {cause.id: cause for cause in found.fitter.causes}
     for scored in found.fitter.scan(found.none):
-        if scored.clear_share < ENTRY.open:
+        if not scored.identifiable:
             open_sites.setdefault(scored.candidate.cause.id, []).extend(scored.candidate.site)
     return tuple(
         NotIdentifiable(

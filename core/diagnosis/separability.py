@@ -27,7 +27,7 @@ from .regression.gls import Fit
 from .regression.rows import Columns, JointRows
 from .regression.score_test import Score
 from .search.fitter import HypothesisFitter, hypothesis_fitter
-from .search.hypothesis import Candidate
+from .search.hypothesis import Candidate, is_determined
 from .thresholds.checks import ALTERNATIVES, SEPARATION
 from .thresholds.regression import COLUMNS
 from .thresholds.search import ENTRY
@@ -115,7 +115,8 @@ def _kinds(fitter: HypothesisFitter) -> list[list[Candidate]]:
 
 
 def _shown(candidate: Candidate, score: Score, fit: Fit, kinds: int) -> Shown:
-    visible = score.clear_share >= ENTRY.open
+    least = max(ENTRY.open, candidate.cause.traits.least_clear)
+    visible = score.clear_share >= least and is_determined(candidate.cause, score)
     smallest = _smallest(candidate, score, fit, kinds) if visible else None
     return Shown(candidate.cause, candidate.site, visible, smallest)
 

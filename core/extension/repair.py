@@ -16,6 +16,7 @@ from ..diagnosis.search.hypothesis import Candidate
 from ..robot.model import RobotModel
 from .cure import enters
 
+NOT_IN_LOG = "Nothing is changed for it: the log does not hold what would replace it"
 NOT_SURE = "Nothing is changed for it: its gain on held-out rows is not significant"
 
 
@@ -56,7 +57,7 @@ def repaired_robot(robot: RobotModel, repairs: Iterable[Repair]) -> RobotModel:
 def _repair(finding: Finding, diagnosis: Diagnosis, robot: RobotModel) -> Repair:
     if finding.member is None:
         known = BY_ID[finding.cause]
-        why = known.beyond_repair if isinstance(known, SampleCheck) else NOT_SURE
+        why = known.beyond_repair if isinstance(known, SampleCheck) else NOT_IN_LOG
         return Repair(finding.cause, finding.joints, "nothing", why, {})
     if not enters(finding):
         return Repair(finding.cause, finding.joints, "nothing", NOT_SURE, {})

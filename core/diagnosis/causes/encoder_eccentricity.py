@@ -25,7 +25,9 @@ class EncoderEccentricity(OwnJointCause, CorrectsLog):
     units = (("amplitude", "rad"), ("phase", "rad"))
     experiment = "fast motion through as much of a revolution as the joint's range allows"
     coordinate = "position"
-    traits = SearchTraits(linearisation_error=LINEARISATION.eccentricity)
+    traits = SearchTraits(
+        linearisation_error=LINEARISATION.eccentricity, largest=ADMISSIBLE.encoder_eccentricity
+    )
     revolute_only = True
 
     def term(self, at: Setting) -> Term:

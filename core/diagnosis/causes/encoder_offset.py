@@ -7,7 +7,7 @@ from ...dynamics.terms.encoder_error import EncoderOffset as EncoderOffsetTerm
 from ...dynamics.terms.kinematic_error import link_of
 from ...robot.model import Link, RobotModel
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Setting, Site, number_text
+from .protocol import FittedCause, Numbers, SearchTraits, Setting, Site, number_text
 from .repairs import CorrectsRobot
 from .shared.own_joint import OwnJointCause
 
@@ -25,6 +25,7 @@ class EncoderOffset(OwnJointCause, CorrectsRobot):
     units = (("offset", "rad"),)
     experiment = "motion of the joints beyond this one through their whole range, with this joint moving too"
     coordinate = "position"
+    traits = SearchTraits(largest=ADMISSIBLE.encoder_offset)
     revolute_only = True
 
     def term(self, at: Setting) -> Term:

@@ -11,7 +11,7 @@ from ...dynamics.terms.gravity_misalignment import Tilt, tilt_axes
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Quantity, Setting, Site, number_text
+from .protocol import FittedCause, Numbers, Quantity, SearchTraits, Setting, Site, number_text
 from .repairs import CorrectsRobot
 from .shared.own_joint import OwnJointCause
 
@@ -26,6 +26,7 @@ class GravityMisalignment(OwnJointCause, CorrectsRobot):
     units = (("tilt_x", "rad"), ("tilt_y", "rad"))
     experiment = "the same slow motion with the first joint at four angles, a quarter of a revolution apart"
     coordinate = "position"
+    traits = SearchTraits(largest=ADMISSIBLE.gravity_tilt)
 
     def sites(self, dataset: Dataset) -> Sequence[Site]:
         """Act on the whole robot, where there is gravity."""

@@ -8,6 +8,7 @@ import inspect
 import sys
 from collections.abc import Mapping
 
+from .exclusion import GENERAL, exclusions
 from .imitation import Imitation, imitations
 from .protocol import Cause
 from .registry import BY_ID, ONLY_CHANGES
@@ -51,6 +52,13 @@ ONLY_AGAINST = """\
 Only against a [reference](diagnosis.md#what-has-changed): without one, the base parameters absorb it.
 
 """
+EXCLUDED = """
+## What is never named
+
+The structure of robot, motion and channel excludes names, whatever the likelihood says. No cause is named
+where
+
+"""
 OVERVIEW = """
 ## All of them
 
@@ -67,7 +75,16 @@ def guide() -> str:
         f"| [{name}](#{name}) | {cause.title}{only.get(name, '')} | {cause.cure} | {_repair(cause)} |\n"
         for name, cause in BY_ID.items()
     )
-    return OPENING + cures + OVERVIEW + rows + "".join(_section(cause) for cause in BY_ID.values())
+    never = "".join(f"- {law};\n" for law in GENERAL[:-1]) + f"- {GENERAL[-1]}.\n"
+    return (
+        OPENING
+        + cures
+        + OVERVIEW
+        + rows
+        + EXCLUDED
+        + never
+        + "".join(_section(cause) for cause in BY_ID.values())
+    )
 
 
 def _section(cause: Cause | SampleCheck) -> str:
@@ -80,8 +97,14 @@ def _section(cause: Cause | SampleCheck) -> str:
         f"{ONLY_AGAINST * (cause in ONLY_CHANGES)}"
         f"| number | unit |\n|---|---|\n{units}\n"
         f"Shown by: {cause.experiment}.\n\n"
+        f"{_excluded(cause.id)}"
         "May be mistaken for:\n\n" + "".join(_imitation(*entry) for entry in imitations(cause.id).items())
     )
+
+
+def _excluded(cause: str) -> str:
+    rows = "".join(f"- {entry.where}: {entry.law}.\n" for entry in exclusions(cause))
+    return f"Never named where:\n\n{rows}\n" if rows else ""
 
 
 def _repair(cause: Cause | SampleCheck) -> str:

@@ -26,7 +26,7 @@ class KinematicError(OwnJointCause, CorrectsRobot):
     units = (("error", "rad or m"), ("alpha", "rad"), ("d", "m"), ("r", "m"))
     experiment = "fast motion of all joints at once: lengths appear in products of velocities"
     coordinate = "position"
-    traits = SearchTraits(discrete=("entry",))
+    traits = SearchTraits(discrete=("entry",), largest=ADMISSIBLE.kinematic_error)
 
     def sites(self, dataset: Dataset) -> Sequence[Site]:
         """List the joints whose link has a row."""

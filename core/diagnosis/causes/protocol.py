@@ -10,6 +10,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal, Protocol, runtime_checkable
 
+import numpy as np
+
 from ...arrays import SquareMatrix, Vector
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import Term
@@ -120,6 +122,12 @@ class SearchTraits:
     onset: Mapping[str, slice] = field(default_factory=dict)
     """The scalar, if any, that is the instant (s) from which on its columns act, and the columns that show
     it. From minus infinity on they act all along."""
+    largest: float = np.inf
+    """Largest size of its linear parameters that a robot can have. A log that leaves all of them open beyond
+    it cannot show the cause."""
+    least_clear: float = 0.0
+    """Share of its squared columns that the model must leave: for causes that a joint's own parameters absorb
+    but for what other joints know."""
     trials: Callable[[Sequence[Scalars], Scalars], float] = grid_size
     """How many trials a point of the grid was picked from: what its p-value is corrected for."""
 
@@ -158,6 +166,9 @@ class Cause(Protocol):
 
     def admissible(self, solved: FittedCause) -> bool:
         """Tell whether the estimates are physically admissible: signs and sizes."""
+
+    def contradicted(self, at: Setting, solved: FittedCause) -> bool:
+        """Tell whether robot and motion, at the operating point, contradict the estimates."""
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the reported numbers, under the names of the public enumeration."""

@@ -67,10 +67,15 @@ def residual_share(dataset: Dataset, operating_point: Prediction, corrupt: Corru
 
 
 def share_of_residual(dataset: Dataset, operating_point: Prediction, gained: JointSeries) -> JointVector:
+    """Give, per joint, the share of the residual's mean square that a disturbance has: all of it at most."""
+    return np.asarray(np.minimum(over_residual(dataset, operating_point, gained), 1.0))
+
+
+def over_residual(dataset: Dataset, operating_point: Prediction, gained: JointSeries) -> JointVector:
     """Give, per joint, the mean square of a disturbance over the residual's."""
     left, mask = torque_residual(dataset, operating_point), fitted_rows(dataset)
     had = np.maximum((left**2 * mask).sum(axis=0), 1e-300)
-    return np.asarray(np.minimum((gained**2 * mask).sum(axis=0) / had, 1.0))
+    return np.asarray((gained**2 * mask).sum(axis=0) / had)
 
 
 def disturbance(dataset: Dataset, operating_point: Prediction, corrupt: Corruption) -> JointSeries:

@@ -29,7 +29,9 @@ class TimeDelay(OwnJointCause, CorrectsLog):
     units = (("delay", "s"),)
     experiment = "motion with fast reversals, at five times the present frequencies"
     coordinate = "torque_rate"
-    traits = SearchTraits(like_position_noise=True, self_consistent=("around",))
+    traits = SearchTraits(
+        like_position_noise=True, self_consistent=("around",), largest=ADMISSIBLE.time_delay
+    )
 
     def sites(self, dataset: Dataset) -> Sequence[Site]:
         """Act on the whole robot."""

@@ -35,7 +35,9 @@ class TorqueFilterLag(OwnJointCause, CorrectsLog):
     units = (("time_constant", "s"),)
     experiment = "motion with fast reversals, at five times the present frequencies"
     coordinate = "torque_rate"
-    traits = SearchTraits(like_position_noise=True, self_consistent=("around",))
+    traits = SearchTraits(
+        like_position_noise=True, self_consistent=("around",), largest=ADMISSIBLE.filter_lag
+    )
 
     def sites(self, dataset: Dataset) -> Sequence[Site]:
         """Act on the whole robot."""

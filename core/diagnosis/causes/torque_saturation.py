@@ -41,6 +41,12 @@ class TorqueSaturation(OwnJointCause):
         """Admit commands that are larger than the applied torque."""
         return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
+    def contradicted(self, at: Setting, solved: FittedCause) -> bool:
+        """Refuse a limit that the motion exceeds: while a drive is limited it applies the limit."""
+        applied = np.abs(at.operating_point.applied(at.dataset.state)[:, at.joint - 1])
+        reached = float(np.quantile(applied, ADMISSIBLE.saturation_quantile))
+        return reached > (1.0 + ADMISSIBLE.saturation_error) * solved.scalars["limit"]
+
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the limit, which is no more certain than the predicted torque that it clips."""
         limit = solved.scalars["limit"]

@@ -1,19 +1,27 @@
 """Tell whether the size of a cause makes sense beside the log, whatever the likelihood says.
 
 A cause whose torque exceeds all the torque of its joint is cancelled by another column: it stands for a
-direction that the motion leaves open. A cause none of whose numbers exceeds its deviation has no size.
+direction that the motion leaves open. A cause none of whose numbers exceeds its deviation has no size. What
+the motion contradicts, a cause says itself.
 """
 
 import numpy as np
 
+from ..causes.protocol import Setting
 from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Hypothesis
 from ..thresholds.checks import SIZE
 
 
 def has_plausible_size(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> bool:
-    """Tell whether a member's torque and deviations make sense."""
-    return _within_torque(fitter, chosen, index) and _is_determined(fitter, chosen, index)
+    """Tell whether a member's torque and deviations make sense, and the motion does not contradict it."""
+    member = chosen.members[index]
+    at = Setting(fitter.dataset, fitter.operating_point, member.site, member.scalars)
+    return (
+        _within_torque(fitter, chosen, index)
+        and _is_determined(fitter, chosen, index)
+        and not member.cause.contradicted(at, chosen.solved(index))
+    )
 
 
 def _within_torque(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> bool:

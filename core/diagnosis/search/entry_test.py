@@ -63,13 +63,13 @@ def best_entry(
 def _admissible_scans(
     fitter: HypothesisFitter, now: Hypothesis, excluded_kinds: Excluded
 ) -> list[ScoredCandidate]:
-    """Give the scored candidates that neither a member nor the search before excludes."""
+    """Give the scored candidates that neither the log, nor a member, nor the search before excludes."""
     excluded = {name for member in now.members for name in excludes(member.cause.id)}
     taken = {*now.by_key, *(key for key, brings in excluded_kinds.items() if brings == np.inf)}
     return [
         scored
         for scored in fitter.scan(now)
-        if scored.candidate.key not in taken and scored.candidate.cause.id not in excluded
+        if scored.possible and scored.candidate.key not in taken and scored.candidate.cause.id not in excluded
     ]
 
 

@@ -17,6 +17,7 @@ from ..dataset.dataset import Dataset
 from ..regression.gls import Fit
 from ..regression.score_test import Score
 from ..thresholds.regression import COLUMNS
+from ..thresholds.search import ENTRY
 
 ColumnKey = tuple[str, Site, tuple[tuple[str, float], ...]]
 """A cause, its site and its scalars: the key of cached columns."""
@@ -71,6 +72,18 @@ class ScoredCandidate:
     freedom: int
     values: Vector
     clear_share: float
+    determined: bool = True
+    """Whether the rows leave one of its linear parameters less open than the largest size of its cause."""
+
+    @property
+    def possible(self) -> bool:
+        """Tell whether the structure of robot and motion lets the log show it at all."""
+        return self.determined and self.clear_share >= self.candidate.cause.traits.least_clear
+
+    @property
+    def identifiable(self) -> bool:
+        """Tell whether the model's parameters cannot stand for it."""
+        return self.possible and self.clear_share >= ENTRY.open
 
     @cached_property
     def log_p(self) -> float:
@@ -139,6 +152,16 @@ def admits(candidate: Candidate, judged: Score) -> bool:
     return candidate.cause.admissible(solved)
 
 
+def is_determined(cause: Cause, judged: Score) -> bool:
+    """Tell whether some linear parameter is less uncertain than the largest size that its cause can have.
+
+    A column of rounding errors, as of the encoder's zero of a vertical first joint, has a share that no other
+    column spans, too. Its size may then be anything.
+    """
+    variances = np.diag(judged.covariance)
+    return bool(np.any(variances < cause.traits.largest**2))
+
+
 def best_of_kinds(asked: Sequence[Candidate], found: Sequence[Score]) -> list[ScoredCandidate]:
     """Give the best scalars of each kind, the smallest p-value first."""
     kinds: dict[object, list[int]] = {}
@@ -151,7 +174,12 @@ def best_of_kinds(asked: Sequence[Candidate], found: Sequence[Score]) -> list[Sc
         judged = found[likeliest]
         best.append(
             ScoredCandidate(
-                asked[likeliest], judged.statistic, judged.freedom, judged.values, judged.clear_share
+                asked[likeliest],
+                judged.statistic,
+                judged.freedom,
+                judged.values,
+                judged.clear_share,
+                is_determined(asked[likeliest].cause, judged),
             )
         )
     return sorted(best, key=lambda scored: scored.log_p)

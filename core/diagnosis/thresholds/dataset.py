@@ -90,6 +90,8 @@ class SampleChecks:
     """Order of the low-pass filters of the checks."""
     dropped_reach: int = 5
     """Rows over which it is judged whether the robot moved."""
+    dropped_drawn: float = 0.02
+    """Share of rows that are drawn at least to measure what repeats add."""
     jitter_band: float = 0.25
     """Share of the log's rate above which positions are compared with velocities."""
     jitter_filters: int = 8

@@ -40,6 +40,7 @@ FOLDER = Path(__file__).parents[3] / "core" / "diagnosis" / "causes"
 SHARED_PARTS = {
     "__init__",
     "guide",
+    "exclusion",
     "imitation",
     "masking",
     "protocol",

@@ -48,6 +48,11 @@ class OwnJointCause:
         """Admit any finite value, and no negative rotor inertia."""
         return bool(np.isfinite(solved.values).all()) and solved.scalars.get("motor_inertia", 0.0) >= 0.0
 
+    def contradicted(self, at: Setting, solved: FittedCause) -> bool:
+        """Know of nothing in the motion that contradicts it."""
+        del at, solved
+        return False
+
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report the linear parameters in order, then the scanned scalars."""
         joint = solved.site[0] if solved.site else None

@@ -137,3 +137,34 @@ def test_the_deviation_of_the_jitter_is_calibrated(seed):
 def _mean_square(dataset: Dataset, held: Prediction) -> np.ndarray:
     left, mask = torque_residual(dataset, held), fitted_rows(dataset)
     return (left**2 * mask).sum(axis=0) / mask.sum(axis=0)
+
+
+def test_repeats_that_would_hardly_change_the_residual_are_no_finding_however_sure_they_are():
+    # The same rows repeat, as surely by no chance; only the torque's noise is larger.
+    log = recorded(lost=0.002)
+    rows = log.source.data
+    repeats = np.all(np.diff(rows.position, axis=0, prepend=np.nan) == 0.0, axis=1)
+    noise = 2000.0 * NOISE * np.random.default_rng(3).normal(size=rows.torque.shape)
+    kept = np.maximum.accumulate(np.where(repeats, 0, np.arange(len(repeats))))
+    loud = log_from_arrays("wheels", rows.time, rows.position, (rows.torque + noise)[kept])
+    assert findings("dropped_samples", loud) == ()
+    (found,) = findings("dropped_samples", log)
+    assert found.statistic > 5
+
+
+@pytest.mark.parametrize("lost", [0.002, 0.05])
+def test_what_repeats_are_worth_is_what_keeping_them_would_add(lost):
+    # Against the same log read as if no row repeated: a tiny scatter of positions hides the repeats.
+    log = recorded(lost=lost)
+    (found,) = findings("dropped_samples", log)
+    rows = log.source.data
+    hidden = rows.position + 1e-9 * np.random.default_rng(5).normal(size=rows.position.shape)
+    kept = log_from_arrays("wheels", rows.time, hidden, rows.torque)
+
+    def left(one: JointLog) -> np.ndarray:
+        data = looked_at(one)
+        return np.mean(torque_residual(data, operating_point()) ** 2, axis=0, where=fitted_rows(data))
+
+    more = float(np.max(np.sqrt(left(kept) / left(log)) - 1.0))
+    said = float(found.statement.split("would leave ")[1].split(" %")[0]) / 100.0
+    assert said == pytest.approx(more, rel=0.5)

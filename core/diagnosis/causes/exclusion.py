@@ -1,0 +1,137 @@
+"""State what the structure of robot, motion and channel excludes, cause by cause, with the law behind it.
+
+Bounds of signs and sizes are each cause's `admissible`, what the motion refutes is its `contradicted`, and
+what no size could show is the search's `ScoredCandidate.possible`. This is the list that a user reads.
+"""
+
+from dataclasses import dataclass
+
+from ..thresholds.causes import ADMISSIBLE
+from ..thresholds.checks import ALTERNATIVES
+
+
+@dataclass(frozen=True)
+class Exclusion:
+    """State where a cause is never named, and why."""
+
+    cause: str
+    where: str
+    law: str
+
+
+GENERAL: tuple[str, ...] = (
+    "its torque exceeds all of its joint's torque: another column cancels it where the motion leaves it open",
+    "none of its numbers exceeds its own standard deviation",
+    "its size is open beyond the largest there can be, as a vertical first joint's zero: no torque has it",
+    "its sign or size is one of those below",
+)
+"""Where no cause is named."""
+
+EXCLUSIONS: tuple[Exclusion, ...] = (
+    Exclusion("friction_stribeck", "the excess is negative", "friction is largest next to standstill"),
+    Exclusion(
+        "friction_viscous_nonlinear",
+        f"the exponent is within {ADMISSIBLE.power_distance:g} of 0 or 1",
+        "that is Coulomb or viscous friction, which the model has",
+    ),
+    Exclusion(
+        "friction_load_dependent",
+        "the coefficient is negative or above 1",
+        "friction brakes, and is less than the load that causes it",
+    ),
+    Exclusion(
+        "friction_temperature",
+        f"the warm-up takes less than {ADMISSIBLE.least_warm_up:g} s",
+        "no drive of a robot warms up faster",
+    ),
+    Exclusion("friction_presliding", "the level is negative", "friction builds up against the motion"),
+    Exclusion("joint_elasticity", "the stiffness is negative", "such a joint would not come to rest"),
+    Exclusion(
+        "backlash",
+        "the gap differs many times from the one that its crossings were computed for",
+        "the torque of a gap is where the link crosses it",
+    ),
+    Exclusion(
+        "joint_coupling",
+        "an inertia or friction of the coupled motor is significantly negative",
+        "it is that of a motor",
+    ),
+    Exclusion("rotor_inertia_missing", "the inertia is negative", "it is that of a rotor"),
+    Exclusion(
+        "torque_ripple",
+        f"it has less than {ADMISSIBLE.ripple_harmonic:g} cycles per revolution",
+        "gravity has one",
+    ),
+    Exclusion(
+        "torque_gain",
+        "the joint has no load that another joint's torque or a reference contains, as without gravity and "
+        "coupled inertia",
+        "only ratios between joints show a gain; alone, the joint's own parameters are larger by that share",
+    ),
+    Exclusion(
+        "torque_gain",
+        f"the error is {100.0 * ADMISSIBLE.torque_gain:g} % or more",
+        "a channel of the other sign is a conflict of robot and log",
+    ),
+    Exclusion(
+        "torque_saturation",
+        f"the torque that the motion shows exceeds the limit by more than "
+        f"{100.0 * ADMISSIBLE.saturation_error:g} %",
+        "a drive at its limit applies the limit, and the motion shows what was applied",
+    ),
+    Exclusion("torque_saturation", "the command is below the torque applied", "a limit only takes away"),
+    Exclusion(
+        "time_delay",
+        f"it exceeds {1e3 * ADMISSIBLE.time_delay:g} ms",
+        "a first-order column does not represent it",
+    ),
+    Exclusion(
+        "torque_filter_lag",
+        f"the time constant is negative or above {1e3 * ADMISSIBLE.filter_lag:g} ms",
+        "a filter lags, and one as slow leaves no motion in the torque",
+    ),
+    Exclusion(
+        "encoder_offset",
+        f"it exceeds {ADMISSIBLE.encoder_offset:g} rad",
+        "the table belongs to another robot; quarter and half turns are conflicts of robot and log",
+    ),
+    Exclusion(
+        "encoder_eccentricity",
+        f"the amplitude exceeds {ADMISSIBLE.encoder_eccentricity:g} rad",
+        "its first order errs by half of it, and a disc so far off its axis could not be read",
+    ),
+    Exclusion(
+        "kinematic_error",
+        f"it exceeds {ADMISSIBLE.kinematic_error:g} rad or m",
+        "a first-order column does not represent it; long errors are conflicts of robot and log",
+    ),
+    Exclusion(
+        "gravity_misalignment",
+        f"the tilt exceeds {ADMISSIBLE.gravity_tilt:g} rad",
+        "a first-order column does not represent it; larger ones are conflicts of robot and log",
+    ),
+    Exclusion(
+        "payload_change",
+        f"the mass exceeds {ADMISSIBLE.payload:g} kg or, against a reference, the parameters are no body's",
+        "a payload is a body",
+    ),
+    Exclusion("link_parameters", "the difference is that of a body", "a body that was attached is a payload"),
+    Exclusion("cable_force", "the cable pushes", "a slack cable carries nothing"),
+    Exclusion(
+        "external_contact",
+        f"the force exceeds {ADMISSIBLE.contact_force:g} N, or the moment what the force has at "
+        f"{ADMISSIBLE.contact_lever:g} m",
+        "it would break the robot, or does not act on its last link",
+    ),
+    Exclusion(
+        "dropped_samples",
+        f"the repeated rows, taken for measurements, would add less than {ALTERNATIVES.least_gain:g} % to "
+        "every joint's RMS error",
+        "they are listed with the log's defects",
+    ),
+)
+
+
+def exclusions(cause: str) -> tuple[Exclusion, ...]:
+    """List where a cause is not named."""
+    return tuple(entry for entry in EXCLUSIONS if entry.cause == cause)

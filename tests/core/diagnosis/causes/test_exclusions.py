@@ -1,0 +1,107 @@
+"""What robot and motion exclude is never named: sizes that nothing bounds, limits that the motion exceeds."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from tests.core.diagnosis.scenes import Scene, fitter_of
+from tests.core.dynamics.terms.motions import swinging
+from tests.core.estimate.worlds import true_parameters
+from veritorque.core.diagnosis.causes.encoder_eccentricity import EncoderEccentricity
+from veritorque.core.diagnosis.causes.encoder_offset import EncoderOffset
+from veritorque.core.diagnosis.causes.exclusion import EXCLUSIONS, GENERAL
+from veritorque.core.diagnosis.causes.guide import guide
+from veritorque.core.diagnosis.causes.protocol import FittedCause, Setting
+from veritorque.core.diagnosis.causes.registry import BY_ID, CAUSES
+from veritorque.core.diagnosis.causes.torque_gain import TorqueGain
+from veritorque.core.diagnosis.causes.torque_saturation import TorqueSaturation
+from veritorque.core.diagnosis.dataset.dataset import build_dataset
+from veritorque.core.diagnosis.search.hypothesis import ScoredCandidate
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.robot.description import robot_from_description
+
+FORMED = (EncoderOffset(), TorqueGain())
+
+
+@cache
+def scene(first: float) -> Scene:
+    """Look at an arm whose first axis is this much from the vertical, rad; the torque is noisy."""
+    row = {"type": "revolute", "theta_offset": 0.0}
+    joints = [
+        {**row, "alpha": first, "d": 0.0, "r": 0.2},
+        {**row, "alpha": -1.3, "d": 0.1, "r": 0.05},
+        {**row, "alpha": 1.1, "d": 0.3, "r": 0.1},
+    ]
+    model = standard_model(robot_from_description({"name": "arm", "joints": joints}))
+    state, truth = swinging(3, 15.0), true_parameters(model)
+    torque = model.torque(truth, state) + 0.05 * np.random.default_rng(6).normal(size=state.position.shape)
+    log = log_from_arrays("arm", np.asarray(state.time), state.position, torque)
+    dataset = build_dataset(model, (log,), held_out=frozenset({(0, 4)}), blocks=5)
+    return Scene(dataset, Prediction(model, truth))
+
+
+@cache
+def scans(first: float) -> dict[tuple[str, tuple[int, ...]], ScoredCandidate]:
+    fitter = fitter_of(scene(first), FORMED)
+    return {scored.candidate.key: scored for scored in fitter.scan(fitter.fit(()))}
+
+
+def test_the_zero_of_a_vertical_first_joint_cannot_be_shown_by_rounding_errors():
+    """It moves no torque at all: what is left of its columns is what 64 bits round."""
+    upright = scans(0.0)["encoder_offset", (1,)]
+    assert not upright.possible
+
+
+def test_the_zeros_of_joints_that_gravity_turns_can_be_shown():
+    for key in (("encoder_offset", (1,)), ("encoder_offset", (2,))):
+        assert scans(0.4)[key].identifiable
+    assert scans(0.0)["encoder_offset", (2,)].identifiable
+
+
+def test_a_gain_can_be_shown_where_other_joints_know_the_load():
+    assert scans(0.4)["torque_gain", (2,)].identifiable
+
+
+@pytest.mark.parametrize(("share", "excluded"), [(0.6, True), (0.9, True), (0.99, False), (1.0, False)])
+def test_a_limit_that_the_motion_exceeds_is_none(share, excluded):
+    look = scene(0.4)
+    applied = look.operating_point.applied(look.dataset.state)[:, 1]
+    limit = share * float(np.abs(applied).max())
+    solved = FittedCause((2,), np.array([1.0, 0.0]), np.eye(2), {"limit": limit}, {})
+    at = Setting(look.dataset, look.operating_point, (2,), {"limit": limit})
+    assert TorqueSaturation().contradicted(at, solved) is excluded
+
+
+def test_no_disc_is_as_eccentric_as_its_first_order_cannot_say():
+    def solved(amplitude: float) -> FittedCause:
+        return FittedCause((1,), np.array([0.0, amplitude]), 1e-6 * np.eye(2), {}, {})
+
+    assert EncoderEccentricity().admissible(solved(0.15))
+    assert not EncoderEccentricity().admissible(solved(0.27))
+
+
+@pytest.mark.parametrize(
+    "cause", [one for one in CAUSES if np.isfinite(one.traits.largest)], ids=lambda cause: cause.id
+)
+def test_a_size_that_is_admissible_is_no_larger_than_the_largest(cause):
+    """Or a log that leaves a cause open beyond what it may be would still be said to show it."""
+    width = 2 if cause.id in ("gravity_misalignment", "encoder_eccentricity") else 1
+    site = () if cause.id in ("gravity_misalignment", "time_delay", "torque_filter_lag") else (1,)
+
+    def solved(size: float) -> FittedCause:
+        values = np.zeros(width)
+        values[0] = size
+        return FittedCause(site, values, 1e-9 * np.eye(width), {"entry": 0.0, "around": size}, {})
+
+    assert cause.admissible(solved(0.9 * cause.traits.largest))
+    assert not cause.admissible(solved(1.1 * cause.traits.largest))
+
+
+def test_the_list_of_exclusions_is_of_known_causes_and_stands_in_the_guide():
+    page = guide()
+    assert all(entry.cause in BY_ID for entry in EXCLUSIONS)
+    assert all(entry.where in page and entry.law in page for entry in EXCLUSIONS)
+    assert all(f"- {law}" in page for law in GENERAL)

@@ -1,0 +1,77 @@
+"""A channel that reads no more than a limit is told from a drive at its limit by what the motion asks for."""
+
+import numpy as np
+
+from tests.core.diagnosis.scenes import ARM_RATE_HZ, skew_arm
+from tests.core.dynamics.terms.motions import swinging
+from tests.core.estimate.worlds import true_parameters
+from veritorque.core.diagnosis.checks.clipped_channel import clipped_channels
+from veritorque.core.diagnosis.dataset.dataset import Dataset, build_dataset
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.prediction import Prediction
+from veritorque.core.log.reader import log_from_arrays
+
+MODEL = standard_model(skew_arm())
+TRUTH = true_parameters(MODEL)
+JOINT, SHARE, NOISE = 1, 0.7, 0.05
+
+
+def torque() -> tuple[np.ndarray, np.ndarray]:
+    """Give position and torque of the arm, with noise."""
+    state = swinging(3, 20.0)
+    exact = MODEL.torque(TRUTH, state)
+    return state.position, exact + NOISE * np.random.default_rng(6).normal(size=exact.shape)
+
+
+def look(position: np.ndarray, logged: np.ndarray) -> Dataset:
+    log = log_from_arrays("arm", np.arange(len(position)) / ARM_RATE_HZ, position, logged)
+    return build_dataset(MODEL, (log,), held_out=frozenset({(0, 4)}), blocks=5)
+
+
+def clipped(values: np.ndarray) -> tuple[np.ndarray, float]:
+    """Clip a joint's torque at a share of its largest."""
+    limit = SHARE * float(np.abs(values[:, JOINT]).max())
+    out = values.copy()
+    out[:, JOINT] = np.clip(out[:, JOINT], -limit, limit)
+    return out, limit
+
+
+def test_a_clipped_channel_is_named_with_its_limit():
+    position, whole = torque()
+    logged, limit = clipped(whole)
+    found = clipped_channels(look(position, logged), lambda rest: Prediction(MODEL, TRUTH))
+    assert {one.site for one in found} == {(JOINT + 1,)}
+    for one in found:
+        assert one.quantities[0].value == limit
+        assert one.residual_share[JOINT] > 0.5
+        assert "clipped" in one.statement
+
+
+def test_a_drive_at_its_limit_whose_motion_shows_the_limit_is_no_clipped_channel():
+    """The model then predicts what was applied, which is what the channel reads."""
+    position, whole = torque()
+    logged, _ = clipped(whole)
+
+    class Applied(Prediction):
+        def torque(self, state):
+            return clipped(super().torque(state))[0]
+
+    assert clipped_channels(look(position, logged), lambda rest: Applied(MODEL, TRUTH)) == ()
+
+
+def test_no_fit_sees_the_rows_at_a_limit_and_no_fit_is_made_where_there_is_none():
+    position, whole = torque()
+    seen = []
+
+    def fitted(rest: Dataset) -> Prediction:
+        seen.append(rest)
+        return Prediction(MODEL, TRUTH)
+
+    clipped_channels(look(position, whole), fitted)
+    assert not seen
+    logged, _ = clipped(whole)
+    clipped_channels(look(position, logged), fitted)
+    for rest in seen:
+        assert np.mean(rest.usable[:, JOINT]) < np.mean(look(position, logged).usable[:, JOINT])
+        assert np.array_equal(rest.usable[:, 0], look(position, logged).usable[:, 0])
+    assert seen
