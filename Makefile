@@ -22,7 +22,7 @@ export MKL_NUM_THREADS := 1
 # Where bytecode is switched off, each of the many processes that tests start would compile every module again.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help setup demo serve test check style types imports drift containers answers hidden battery ablate hostile fuzz ranks conflicts truths audit contract chaos life image-test bench lock openapi reference docs
+.PHONY: help setup demo serve test check style types imports drift containers answers hidden battery ablate hostile fuzz spoilt ranks conflicts truths audit contract chaos life image-test bench lock openapi reference docs
 
 help: ## list the commands
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "make %-12s %s\n", $$1, $$2}' Makefile
@@ -88,6 +88,9 @@ hostile: $(READY) ## send every hostile file to the service and print how each w
 
 fuzz: $(READY) ## read files spoilt at random, in every format (RUNS=n SEED=s)
 	$(RUN) -m tests.fuzz --runs $(or $(RUNS),20000) --seed $(or $(SEED),1)
+
+spoilt: $(READY) ## spoil the values of sound logs in many ways (SEED decides), and count the false causes (RUNS=n)
+	$(RUN) -m tests.spoilt --runs $(or $(RUNS),200) --seed $(or $(SEED),1)
 
 ranks: $(READY) ## compare base parameters with the rank of pinocchio's regressor on drawn URDFs (ROBOTS=n SEED=s)
 	$(RUN) -m tests.ranks --robots $(or $(ROBOTS),250) --seed $(or $(SEED),1)

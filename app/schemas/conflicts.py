@@ -17,6 +17,7 @@ ConflictName = Literal[
     "gravity_compensated",
     "time_base",
     "unit",
+    "gear_ratio",
 ]
 Channel = Annotated[Literal["torque", "position", "both"] | None, about("null if the description is wrong")]
 

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from .conflict import Conflict
 from .kinds.channels_swapped import ChannelsSwapped
 from .kinds.convention import Convention
+from .kinds.gear_ratio import GearRatio
 from .kinds.gravity_compensated import GravityCompensated
 from .kinds.link_length import LinkLength
 from .kinds.mounting import Mounting
@@ -26,6 +27,7 @@ _LISTED: tuple[Conflict, ...] = (
     Convention(),
     LinkLength(),
     Unit(),
+    GearRatio(),
 )
 CONFLICTS: Mapping[str, Conflict] = {conflict.name: conflict for conflict in _LISTED}
 """The kinds of conflict by name."""

@@ -88,5 +88,19 @@ class Length:
     """Metres below which an error of a length is a cause with a size, and no conflict."""
 
 
+@dataclass(frozen=True)
+class Ratio:
+    """Search the factor of a torque. All are set by hand."""
+
+    promising: float = 0.05
+    """Natural logarithm by which the mean error has to fall at the first estimate for it to be refined."""
+    around: float = np.log(30.0)
+    """Logarithm of the factor on either side of the first estimate within which it is refined."""
+    tolerance: float = 5e-3
+    """Logarithm to which a factor is refined."""
+    least: float = np.log(2.0)
+    """Logarithm below which a factor is a cause with a size, and no conflict."""
+
+
 DOUBT, TRIAL, DECISION, MOUNTING = Doubt(), Trial(), Decision(), Mounting()
-TIME_BASE, LENGTH = TimeBase(), Length()
+TIME_BASE, LENGTH, RATIO = TimeBase(), Length(), Ratio()

@@ -93,6 +93,21 @@ class Equations:
         pairs = [(rows @ base[columns] - torque, torque) for rows, columns, torque in parts]
         return np.array([_relative(left, torque) for left, torque in pairs])
 
+    def likeliest_factor(self, joint: int) -> float | None:
+        """Give the factor of a joint's (from 0) torque at which least squares leaves least of all equations.
+
+        The parameters that other joints share decide it. None where there are none, or it is not positive.
+        """
+        weights = 1.0 / self.system.noise**2
+        moments = np.zeros((len(weights), len(self.regressor.base.kept)))
+        for row, (moment, columns) in enumerate(zip(self.moments, self.regressor.columns_of, strict=True)):
+            moments[row, columns] = weights[row] * moment
+        product, _ = self._normal(self.system.noise)
+        own = _solved(product, moments[joint])
+        rest = weights[joint] * self.squares[joint] - moments[joint] @ own
+        towards = own @ (moments.sum(axis=0) - moments[joint])
+        return float(towards / rest) if towards > 0.0 and rest > 0.0 else None
+
     def _left(self, base: BaseParameters) -> JointVector:
         parts = zip(self.regressor.products, self.moments, self.regressor.columns_of, strict=True)
         fitted = [

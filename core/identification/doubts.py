@@ -11,6 +11,7 @@ from ..estimate.plausibility import DENSEST
 from ..log.model import Defect
 from ..regressor.block import Block
 from ..robot.extent import Extent
+from ..validation.scores import quality
 from .result import Identification
 
 HIGH_COST = 1.25
@@ -37,6 +38,16 @@ def doubts(found: Identification) -> tuple[str, ...]:
 def contradictions(found: Identification) -> tuple[str, ...]:
     """List the warnings that say that the model does not fit the log."""
     return (*_cost(found), *_signs(found), *_unexplained(found), *_held_out(found))
+
+
+def has_impossible_joint(found: Identification) -> bool:
+    """Tell whether a joint's torque could be followed well enough by bodies that cannot exist only.
+
+    The constraint then costs most of it: robot and log disagree, and not in a small correction.
+    """
+    costly = _joint_cost(found) > HIGH_COST
+    judged = found.validation or found.fit
+    return any(costly[one.joint - 1] and quality(one.nrmse_of_rms_percent) == "failed" for one in judged)
 
 
 def _logs(found: Identification) -> list[str]:

@@ -252,7 +252,9 @@ def _survey(log: JointLog, median_order: int) -> _Survey:
     firsts = np.linspace(start, stop - length, count).astype(int)
     read = [log.source.rows(int(first), int(first) + length) for first in firsts]
     slowest = min((length - 1) / float(rows.time[-1] - rows.time[0]) for rows in read)
-    positions = [uniform_positions(rows, log.rate_hz, median_order) for rows in read]
+    resampled = [uniform_positions(rows, log.rate_hz, median_order) for rows in read]
+    shortest = min(map(len, resampled))  # where stamps scatter, windows of as many rows last differently
+    positions = [position[:shortest] for position in resampled]
     velocities = [_velocity(position, log.rate_hz) for position in positions]
     speeds = np.sqrt(np.mean([np.mean(velocity**2, axis=0) for velocity in velocities], axis=0))
     power = np.mean([_power(velocity, log.rate_hz) for velocity in velocities], axis=0)

@@ -193,8 +193,7 @@ class Segment:
         marks = np.zeros(effort.shape, dtype=bool)
         for defect in self.log.defects:
             if defect.kind == "saturation" and defect.level is not None and defect.joint is not None:
-                beyond = effort[:, defect.joint - 1] / defect.level
-                marks[:, defect.joint - 1] |= beyond > 1.0 - ROUNDING
+                marks[:, defect.joint - 1] |= at_limit(effort[:, defect.joint - 1], defect.level)
         return marks
 
     def _undirected(self, velocity: JointSeries) -> JointMask:
@@ -248,6 +247,11 @@ def gap_free(
     return Segment(
         log, recipe, start, float(stamps[0]), float(rate), len(stamps), None if even else stamps, shared
     )
+
+
+def at_limit(effort: Samples, level: float) -> SampleMask:
+    """Mark the samples at a limit with its sign, in the unit of the effort."""
+    return np.asarray(effort / level > 1.0 - ROUNDING)
 
 
 def _changes_sign(velocity: JointSeries, still: JointVector) -> JointMask:

@@ -86,6 +86,13 @@ def unit(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
     return Spoilt(robot, assigned(log, spoilt), "unit", (joint + 1,), "torque")
 
 
+def gear_ratio(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
+    """Take one torque on the motor's side of a gear."""
+    plain, joint = Assignment.as_measured(log.joints), _joint(robot, rng)
+    spoilt = replace(plain, torque=plain.torque.scaled(1.0 / rng.uniform(20.0, 160.0), joint))
+    return Spoilt(robot, assigned(log, spoilt), "gear_ratio", (joint + 1,), "torque")
+
+
 def time_base(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
     """Stretch the stamps beside a measured velocity."""
     rows, factor = whole_rows(log), float(rng.choice([0.5, 2.0, 1.25, 4.0]))
@@ -114,6 +121,7 @@ SPOILERS: Mapping[str, Spoiler] = {
         mounting,
         zero_quarter_turn,
         unit,
+        gear_ratio,
         time_base,
     )
 }

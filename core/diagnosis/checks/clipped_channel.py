@@ -1,12 +1,12 @@
 """Find torque channels that read no more than a limit while the motion asks for more.
 
 A channel at its limit reads one value over and over. The drive may be at its limit as well, and then the
-motion shows that value, too. Where a model that is fitted without these rows predicts more, the channel lost
+motion shows that value, too. No fit uses these rows. Where the model predicts more at them, the channel lost
 it.
 """
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
@@ -16,6 +16,7 @@ from ...arrays import SampleMask
 from ...dynamics.prediction import Prediction
 from ...log.model import JointLog
 from ...robot.joint_units import joint_unit
+from ...signals.segment import at_limit
 from ..causes.protocol import Quantity, number_text
 from ..causes.sample_check import SampleFinding
 from ..causes.torque_saturation import TorqueSaturation
@@ -42,66 +43,46 @@ class _Limit:
     rows: SampleMask
 
 
-def clipped_channels(dataset: Dataset, fitted: Callable[[Dataset], Prediction]) -> tuple[SampleFinding, ...]:
-    """Give every limit of a channel beyond which a model predicts torque.
-
-    Parameters
-    ----------
-    fitted
-        Fits the model to a data set.
-    """
-    found = []
-    for limit in _limits(dataset):
-        left = torque_residual(dataset, fitted(_without(dataset, limit)))[:, limit.joint]
-        finding = _judged(dataset, limit, left)
-        if finding is not None:
-            found.append(finding)
-    return tuple(found)
-
-
-def _without(dataset: Dataset, limit: _Limit) -> Dataset:
-    """Leave the rows at a limit to no fit."""
-    at_limit = limit.rows[:, None] & (np.arange(dataset.joints) == limit.joint)
-    return replace(dataset, usable=dataset.usable & ~at_limit, clear=dataset.clear & ~at_limit)
+def clipped_channels(dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
+    """Give every limit of a channel beyond which a model predicts torque."""
+    residual = torque_residual(dataset, operating_point)
+    judged = (_judged(dataset, limit, residual[:, limit.joint]) for limit in _limits(dataset))
+    return tuple(finding for finding in judged if finding is not None)
 
 
 def _limits(dataset: Dataset) -> Iterator[_Limit]:
     """Give the limits that some log stays at."""
-    for joint, sign in sorted({one for motion in dataset.motions for one in _clipped(motion.log)}):
-        levels = [_level(motion.log, joint, sign) for motion in dataset.motions]
-        level = max(levels)
-        rows = np.zeros(len(dataset.time), dtype=bool)
-        for number, motion in enumerate(dataset.motions):
-            own = dataset.log == number
-            if levels[number] == level:
-                rows[own] = _at_level(motion.log, joint, sign, level, dataset.time[own])
-        yield _Limit(joint, sign * level, rows & dataset.usable[:, joint])
+    for number, motion in enumerate(dataset.motions):
+        own = dataset.log == number
+        for defect in motion.log.defects:
+            if defect.kind != "saturation" or defect.level is None or defect.joint is None:
+                continue
+            joint = defect.joint - 1
+            moving = np.abs(dataset.state.velocity[:, joint]) > motion.recipe.still_speed[joint]
+            rows = np.zeros(len(dataset.time), dtype=bool)
+            rows[own] = _at_level(motion.log, joint, defect.level, dataset.time[own])
+            yield _Limit(joint, defect.level, rows & moving & _settled(dataset, joint))
 
 
-def _clipped(log: JointLog) -> Iterator[tuple[int, float]]:
-    """Give joint (from 0) and sign of every torque that a log stays at."""
-    for defect in log.defects:
-        if (defect.kind, defect.channel) == ("saturation", "torque") and defect.joint is not None:
-            highest, lowest = (_level(log, defect.joint - 1, sign) for sign in (1.0, -1.0))
-            yield defect.joint - 1, 1.0 if highest > lowest else -1.0
-
-
-def _level(log: JointLog, joint: int, sign: float) -> float:
-    return max(float((sign * torque).max()) for _, torque in _torques(log, joint))
-
-
-def _torques(log: JointLog, joint: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Give stamps and torques of a joint, many rows at a time."""
+def _at_level(log: JointLog, joint: int, level: float, time: np.ndarray) -> SampleMask:
+    """Mark the instants at which the channel is at a level, before and after."""
+    stamps, there = [], []
     for begin in range(0, log.source.samples, ROWS):
         rows = log.source.rows(begin, begin + ROWS)
         if rows.torque is not None:
-            yield rows.time, rows.torque[:, joint]
+            stamps.append(rows.time)
+            there.append(at_limit(rows.torque[:, joint], level))
+    return np.asarray(np.interp(time, np.concatenate(stamps), np.concatenate(there).astype(float)) >= 1.0)
 
 
-def _at_level(log: JointLog, joint: int, sign: float, level: float, time: np.ndarray) -> SampleMask:
-    """Mark the instants at which the channel is at a level, before and after."""
-    stamps, torques = (np.concatenate(one) for one in zip(*_torques(log, joint), strict=True))
-    return np.asarray(np.interp(time, stamps, (sign * torques >= level).astype(float)) >= 1.0)
+def _settled(dataset: Dataset, joint: int) -> SampleMask:
+    """Mark the rows between the first and the last that a fit may use, stretch by stretch."""
+    marks = np.zeros(len(dataset.time), dtype=bool)
+    for stretch in dataset.stretches:
+        usable = stretch.rows.start + np.flatnonzero(dataset.usable[stretch.rows, joint])
+        if len(usable):
+            marks[usable[0] : usable[-1]] = True
+    return marks
 
 
 def _judged(dataset: Dataset, limit: _Limit, left: np.ndarray) -> SampleFinding | None:
@@ -119,14 +100,14 @@ def _judged(dataset: Dataset, limit: _Limit, left: np.ndarray) -> SampleFinding 
     if p_value > SAMPLE_CHECKS.level:
         return None
     share = np.zeros(dataset.joints)
-    share[limit.joint] = np.sum(left[rows] ** 2) / np.sum(left[dataset.usable[:, limit.joint]] ** 2)
+    share[limit.joint] = np.sum(left[rows] ** 2) / (np.sum(left[rows] ** 2) + np.sum(left[elsewhere] ** 2))
     unit = joint_unit(dataset.robot, limit.joint + 1, "N m")
     return SampleFinding(
         site=(limit.joint + 1,),
         quantities=(Quantity("limit", limit.joint + 1, unit, abs(limit.level), 0.0),),
         statement=(
             f"Torque saturation on joint {limit.joint + 1}: the log is clipped at "
-            f"{number_text(limit.level, 4)} {unit}, where a model fitted without these rows predicts "
+            f"{number_text(limit.level, 4)} {unit}, where the model, fitted without these rows, predicts "
             f"{number_text(float(np.mean(beyond)), 2)} {unit} more on average"
         ),
         statistic=statistic,

@@ -66,7 +66,7 @@ def test_a_defect_of_the_log_neither_hides_a_cause_nor_makes_one(spoil, hidden):
     scene = look_at_arm(position, torque)
     assert kind in {one.kind for one in scene.dataset.motions[0].log.defects}
     found = diagnose(asked(scene))
-    told = ["dropped_samples"] if spoil is stalled else []
+    told = {stalled: ["dropped_samples"], clipped: ["torque_saturation"]}.get(spoil, [])
     said = [*told, *([] if hidden is None else ["spring_compensator"])]
     assert [one.cause for one in found.findings] == said
     assert found.verdict == ("causes_found" if said else "nothing_found")

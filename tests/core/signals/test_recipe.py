@@ -63,6 +63,13 @@ def test_single_absurd_samples_are_not_taken_for_quick_motion(scatter):
     assert choose_recipe(log_of(time, position), FilterOptions(median_order=1)).motion_band_hz > 5.0
 
 
+def test_stamps_that_scatter_in_milliseconds_taken_for_seconds_still_give_a_recipe():
+    # A window of a minute then holds fifteen rows or fourteen.
+    time = jittered(np.random.default_rng(3), 4_000, 250.0, 0.3)
+    position = Multisine.random(np.random.default_rng(1), 3, highest_hz=1.0).position(time)
+    assert choose_recipe(log_of(1e3 * time, position), FilterOptions()).motion_band_hz < 0.125
+
+
 def test_rows_that_a_recorder_copied_are_not_taken_for_jumps():
     time = np.arange(30_000) / RATE_HZ
     position = Multisine.random(np.random.default_rng(1), 3, highest_hz=1.0).position(time)
