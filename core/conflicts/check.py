@@ -5,7 +5,7 @@ from itertools import takewhile
 
 from ..identification.identify import Fit
 from ..log.model import JointLog
-from .doubt import is_doubtful
+from .doubt import has_doubtful_unit, is_doubtful
 from .samples import sampled
 from .search import FoundConflict, find_conflicts
 from .setup import Setup
@@ -36,9 +36,9 @@ class Conflicts:
 
 
 def check(fit: Fit, logs: tuple[JointLog, ...], terms: tuple[str, ...] | None) -> Conflicts:
-    """Look for conflicts where a plain fit is in doubt; stamps are always compared."""
+    """Look for conflicts where a plain fit or a log's numbers are in doubt; stamps are always compared."""
     factors = tuple(stamp_factor(log) for log in logs)
-    if not is_doubtful(fit):
+    if not is_doubtful(fit) and not any(map(has_doubtful_unit, logs)):
         return Conflicts((), factors)
     problem = fit.problem
     trials = Trials(sampled(problem.motions, problem.held_out), terms)

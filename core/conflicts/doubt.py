@@ -5,12 +5,18 @@ and in the residual.
 """
 
 from ..identification.identify import Fit
+from ..log.model import JointLog
 from .thresholds import DOUBT
 
 
 def is_doubtful(fit: Fit) -> bool:
     """Tell whether a plain fit is in doubt."""
     return fit.estimate.cost_ratio > DOUBT.cost or _unexplained(fit)
+
+
+def has_doubtful_unit(log: JointLog) -> bool:
+    """Tell whether positions or efforts are of an unusual size; a good fit is no excuse."""
+    return any(defect.kind == "implausible_unit" and defect.channel != "time" for defect in log.defects)
 
 
 def _unexplained(fit: Fit) -> bool:

@@ -205,7 +205,7 @@ def coarse_positions(table: Table, rng: np.random.Generator) -> Table:
 
 def coarse_torques(table: Table, rng: np.random.Generator) -> Table:
     """Round the torques to some hundredths of their size."""
-    step = rng.uniform(0.003, 0.1) * np.nanstd(table.torque, axis=0)
+    step = rng.uniform(0.003, 0.1) * np.maximum(np.nanstd(table.torque, axis=0), 1e-9)
     return replace(table, torque=step * np.round(table.torque / step))
 
 

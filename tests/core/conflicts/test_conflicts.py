@@ -10,6 +10,7 @@ from tests.conflicts.score import answer, mean_percent
 from tests.conflicts.spoil import SPOILERS
 from tests.core.estimate.worlds import FRICTION, swing, true_parameters
 from tests.measured import measured_log, measured_robot
+from tests.plant.cases import draw_clean
 from tests.truths.cases import pendulum_robot
 from veritorque.core.conflicts.registry import CONFLICTS
 from veritorque.core.conflicts.samples import sampled
@@ -124,6 +125,18 @@ def test_a_robot_whose_table_is_in_the_standard_convention_is_read_so(arm):
     assert mean_percent(document) < 1.05 * sound
     corrected = described | found["correction"]["robot"]
     assert identify(IdentifyRequest(robot_from_description(corrected), (log,), PLAIN))["conflicts"] == []
+
+
+def test_a_unit_is_asked_for_where_numbers_are_unusual_though_the_fit_is_good():
+    """On an arm that no gravity bends, inertias absorb most of a wrong unit."""
+    case = draw_clean(1000, noise="white", robot="planar-2", duration=15.0)
+    plain = Assignment.as_measured(2)
+    spoilt = assigned(case.log, replace(plain, position=plain.position.scaled(180.0 / np.pi, 1)))
+    rows = whole_rows(spoilt)
+    log = log_from_arrays("degrees", rows.time, rows.position, rows.torque)
+    (found,) = identify(IdentifyRequest(case.believed, (log,), PLAIN))["conflicts"]
+    assert (found["conflict"], found["joints"]) == ("unit", [2])
+    assert found["error_before_percent"] < 10.0
 
 
 def test_a_log_without_gravity_is_named(arm):
