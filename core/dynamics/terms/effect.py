@@ -80,7 +80,7 @@ class AllJointsTerm(JointTerm):
     def series(self, robot: RobotModel, state: MotionState) -> Series:
         """Give the torque per unit parameter, joint after joint for each parameter."""
         torques = [torque.T for torque in self.torques(robot, state)]
-        return torques[0] if len(torques) == 1 else np.vstack(torques)
+        return np.ascontiguousarray(torques[0]) if len(torques) == 1 else np.vstack(torques)
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the torque of all joints per unit of each parameter."""
