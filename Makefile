@@ -45,8 +45,9 @@ demo: $(READY) ## identify a YuMi arm through the service, then diagnose a log i
 serve: $(READY) ## start the service on loopback and print its URL
 	$(RUN) -m veritorque serve
 
-test: $(READY) ## run every test
-	$(RUN) -m pytest -n 2 $(ARGS)
+# A third of what tests take is waiting for services and browsers: three of them keep two processors busy.
+test: $(READY) ## run every test (WORKERS=n at the same time, 3 by default)
+	$(RUN) -m pytest -n $(or $(WORKERS),3) $(ARGS)
 
 check: style types imports drift containers docs ## style, types, import contracts, API document, container files, site
 

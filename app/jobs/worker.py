@@ -31,7 +31,8 @@ from .reclaim import Reclaimer
 
 LOGGER = logging.getLogger(__name__)
 REPORT_EVERY_S = 0.2
-POLL_S = 0.02
+POLL_S, LONGEST_POLL_S, GROWTH = 0.02, 0.25, 1.5
+"""Time between two looks for jobs right after one, s, at rest, and the ratio by which it grows in between."""
 WATCH_EVERY_S = 0.1
 HEARTBEAT_S = 2.0
 SWEEP_EVERY_S = 60.0
@@ -84,7 +85,7 @@ class Worker:
         self._capacity, self._on_ended = capacity, on_ended
         self._presence = Presence(store.directory / "workers")
         self._reclaimer, self._sweep = Reclaimer(store, self._presence), Sweep(store)
-        self._closing, self._woken = threading.Event(), threading.Condition()
+        self._closing, self._woken, self._notices = threading.Event(), threading.Condition(), 0
         self._stops: dict[Held, threading.Event] = {}
         self._unknown: set[Held] = set()
         self._threads = [threading.Thread(target=self._serve, name=f"job-{n}") for n in range(capacity.slots)]
@@ -104,11 +105,13 @@ class Worker:
     def wake(self) -> None:
         """Look for jobs at once."""
         with self._woken:
+            self._notices += 1
             self._woken.notify_all()
 
     def close(self) -> None:
         """Stop all computations, hand their jobs back, and wait for the threads."""
         self._closing.set()
+        self.wake()
         for stop in list(self._stops.values()):
             stop.set()
         for thread in self._threads:
@@ -126,20 +129,26 @@ class Worker:
         self.ready.set()
 
     def _serve(self) -> None:
+        pause = POLL_S
         while not self._closing.is_set():
             try:
+                seen = self._notices
                 job = self._claim()
                 if job is not None:
                     self._process(job)
-                    continue
-                with self._woken:
-                    self._woken.wait(POLL_S)
+                woken = job is not None or self._wait(seen, pause)
+                pause = POLL_S if woken else min(GROWTH * pause, LONGEST_POLL_S)
             except UnavailableError as error:
                 LOGGER.warning("the database does not answer: %s", error.reason)
                 self._closing.wait(PAUSE_S)
             except Exception:
                 LOGGER.exception("taking a job failed with an internal error")
                 self._closing.wait(PAUSE_S)
+
+    def _wait(self, seen: int, seconds: float) -> bool:
+        """Wait until there is a notice beyond those seen, or so long; tell whether there is."""
+        with self._woken:
+            return self._woken.wait_for(lambda: self._notices != seen, seconds)
 
     def _claim(self) -> JobRecord | None:
         most = self._capacity.most_per_tenant

@@ -139,7 +139,7 @@ def _bounded(setup: Setup, trials: Trials) -> list[_Bounded]:
     for conflict in CONFLICTS.values():
         for hypothesis in conflict.hypotheses(setup, trials):
             equations = trials.equations(hypothesis.setup)
-            listed.append(_Bounded(hypothesis, equations, trials.bound(equations)))
+            listed.append(_Bounded(hypothesis, equations, equations.normal.bound))
     return listed
 
 

@@ -10,7 +10,6 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import cho_solve, cholesky, solve_triangular
 
 from ..arrays import BaseParameters, Indices, JointVector, Matrix, SampleMask, Series, Vector, Vector3
 from ..dynamics.model import standard_model
@@ -19,19 +18,15 @@ from ..errors import SolverError
 from ..estimate.constraints import Bounds, default_prior
 from ..estimate.estimate import solve
 from ..estimate.programme import Programme
-from ..estimate.system import System
 from ..reduction.base import BaseModel, base_model
 from ..regressor.columns import ColumnPlan
 from ..robot.model import Link, RobotModel
+from .normal import Normal, crossed, mean_log, towards
 from .samples import Samples
 from .setup import Setup
-from .thresholds import TRIAL
 
 _GENERAL = np.array([0.37, -0.54, -0.75])
 """A direction of gravity along no axis: base parameters for it span those of any other direction."""
-_RIDGE = 1e-11
-"""Added to the diagonal of scaled products, so that they have a Cholesky factor."""
-_REWEIGHTINGS = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,9 +39,9 @@ class Regressor:
     judged: tuple[Matrix, ...]
 
     @cached_property
-    def products(self) -> tuple[Matrix, ...]:
+    def products(self) -> np.ndarray:
         """Give W'W of the fitted rows per joint."""
-        return tuple(rows.T @ rows for rows in self.fitted)
+        return crossed(self.fitted, self.fitted, self.columns_of, len(self.base.kept))
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,78 +53,23 @@ class Equations:
     judged: tuple[Vector, ...]
 
     @cached_property
-    def moments(self) -> tuple[Vector, ...]:
-        """Give W'y of the fitted rows per joint."""
-        pairs = zip(self.regressor.fitted, self.fitted, strict=True)
-        return tuple(rows.T @ torque for rows, torque in pairs)
+    def normal(self) -> Normal:
+        """Give the products of the fitted rows."""
+        own = self.regressor
+        moments = towards(own.fitted, self.fitted, own.columns_of, len(own.base.kept))
+        return Normal(own.products, moments, *self.sizes)
 
-    @cached_property
-    def squares(self) -> JointVector:
-        """Give the squared torque of the fitted rows per joint."""
-        return np.array([torque @ torque for torque in self.fitted])
-
-    @cached_property
-    def system(self) -> System:
-        """Weigh the joints by what least squares leaves of them, in two rounds from equal weights."""
-        noise = np.ones(len(self.fitted))
-        rows = np.array([max(len(torque), 1) for torque in self.fitted])
-        for _ in range(_REWEIGHTINGS):
-            left = self._left(_solved(*self._normal(noise)))
-            noise = np.sqrt(np.maximum(left, np.maximum(1e-12 * self.squares, 1e-24)) / rows)
-        return self._factored(noise, int(rows.sum()))
-
-    @cached_property
-    def unconstrained(self) -> BaseParameters:
-        """Give the least-squares optimum."""
-        return _solved(*self._normal(self.system.noise))
-
-    def fitted_errors(self, base: BaseParameters) -> JointVector:
-        """Give the RMS residual over the RMS torque of the fitted rows per joint."""
-        return np.asarray(np.sqrt(self._left(base) / np.where(self.squares > 0.0, self.squares, 1.0)))
+    @property
+    def sizes(self) -> tuple[JointVector, JointVector]:
+        """Give the squared torque and the number of the fitted rows per joint."""
+        squares = np.array([torque @ torque for torque in self.fitted])
+        return squares, np.array([float(max(len(torque), 1)) for torque in self.fitted])
 
     def judged_errors(self, base: BaseParameters) -> JointVector:
         """Give the same of the rows that judge; one for a joint without torque."""
         parts = zip(self.regressor.judged, self.regressor.columns_of, self.judged, strict=True)
         pairs = [(rows @ base[columns] - torque, torque) for rows, columns, torque in parts]
         return np.array([_relative(left, torque) for left, torque in pairs])
-
-    def likeliest_factor(self, joint: int) -> float | None:
-        """Give the factor of a joint's (from 0) torque at which least squares leaves least of all equations.
-
-        The parameters that other joints share decide it. None where there are none, or it is not positive.
-        """
-        weights = 1.0 / self.system.noise**2
-        moments = np.zeros((len(weights), len(self.regressor.base.kept)))
-        for row, (moment, columns) in enumerate(zip(self.moments, self.regressor.columns_of, strict=True)):
-            moments[row, columns] = weights[row] * moment
-        product, _ = self._normal(self.system.noise)
-        own = _solved(product, moments[joint])
-        rest = weights[joint] * self.squares[joint] - moments[joint] @ own
-        towards = own @ (moments.sum(axis=0) - moments[joint])
-        return float(towards / rest) if towards > 0.0 and rest > 0.0 else None
-
-    def _left(self, base: BaseParameters) -> JointVector:
-        parts = zip(self.regressor.products, self.moments, self.regressor.columns_of, strict=True)
-        fitted = [
-            base[columns] @ (product @ base[columns] - 2.0 * moment) for product, moment, columns in parts
-        ]
-        return np.asarray(np.maximum(self.squares + np.array(fitted), 1e-14 * self.squares))
-
-    def _normal(self, noise: JointVector) -> tuple[Matrix, Vector]:
-        size = len(self.regressor.base.kept)
-        product, moment = np.zeros((size, size)), np.zeros(size)
-        parts = zip(self.regressor.products, self.moments, self.regressor.columns_of, noise, strict=True)
-        for own, towards, columns, sigma in parts:
-            product[np.ix_(columns, columns)] += own / sigma**2
-            moment[columns] += towards / sigma**2
-        return product, moment
-
-    def _factored(self, noise: JointVector, rows: int) -> System:
-        product, moment = self._normal(noise)
-        scale, upper = _cholesky(product)
-        target = solve_triangular(upper, moment / scale, trans="T")
-        rest = max(float(np.sum(self.squares / noise**2) - target @ target), 0.0)
-        return System(upper * scale, target, rest, rows, noise)
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,11 +85,6 @@ class Outcome:
     def score(self) -> float:
         """Give the mean logarithm of the joints' errors."""
         return mean_log(self.errors)
-
-
-def mean_log(errors: JointVector) -> float:
-    """Give the mean logarithm of errors, none of which counts as smaller than can be told."""
-    return float(np.mean(np.log(np.maximum(errors, TRIAL.least_error))))
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,31 +107,36 @@ class Trials:
         )
         return Equations(regressor, fitted, judged)
 
-    def bound(self, equations: Equations) -> float:
-        """Give the mean logarithm of the errors that least squares leaves: no constraint makes it less."""
-        return mean_log(equations.fitted_errors(equations.unconstrained))
-
     def outcome(self, equations: Equations) -> Outcome | None:
         """Fit a set-up with its constraints; None where no accurate optimum is found."""
-        system, base = equations.system, equations.regressor.base
-        rows = [max(len(torque), 1) for torque in equations.fitted]
-        prior = default_prior(base.model, np.sqrt(equations.squares / rows))
+        normal, base = equations.normal, equations.regressor.base
+        prior = default_prior(base.model, np.sqrt(normal.squares / normal.rows))
         try:
-            solution = solve(Programme(base, system, prior, Bounds(plausible=False)), "clarabel")
+            solution = solve(Programme(base, normal.system, prior, Bounds(plausible=False)), "clarabel")
         except SolverError:
             return None
         values = base.base_of(solution.standard)
-        return Outcome(equations.judged_errors(values), mean_log(equations.fitted_errors(values)))
+        return Outcome(equations.judged_errors(values), mean_log(normal.errors(values)))
 
     def bound_of_gravity(self, setup: Setup) -> Callable[[Vector3], float]:
-        """Give the bound as a function of gravity in the base frame, m/s2, in which torque is linear."""
+        """Give the bound as a function of gravity in the base frame, m/s2, in which torque is linear.
+
+        Products of the equations are quadratic in it, and are taken once.
+        """
         parts = [self._series(setup.with_gravity(way)) for way in np.vstack([np.zeros(3), np.eye(3)])]
-        without, slopes = parts[0], np.array(parts[1:]) - parts[0]
-        present = self.equations(setup)
+        rows = [
+            self._of_series(setup, part).fitted
+            for part in (parts[0], *(part - parts[0] for part in parts[1:]))
+        ]
+        present, columns = self.equations(setup), self._plan(setup).columns_of
+        size = len(present.regressor.base.kept)
+        products = np.array([[crossed(one, other, columns, size) for other in rows] for one in rows])
+        moments = np.array([towards(one, present.fitted, columns, size) for one in rows])
 
         def bound(gravity: Vector3) -> float:
-            series = without + np.tensordot(gravity, slopes, axes=1)
-            return self.bound(replace(present, regressor=self._of_series(setup, series)))
+            ways = np.append(1.0, gravity)
+            whole = np.tensordot(np.outer(ways, ways), products, axes=2)
+            return Normal(whole, np.tensordot(ways, moments, axes=1), *present.sizes).bound
 
         return bound
 
@@ -252,25 +192,6 @@ def _chosen(samples: Samples) -> tuple[tuple[Indices, ...], tuple[Indices, ...]]
 
 def _rows(samples: Samples, wanted: SampleMask) -> tuple[Indices, ...]:
     return tuple(np.flatnonzero(usable & wanted) for usable in samples.usable.T)
-
-
-def _cholesky(product: Matrix) -> tuple[Vector, Matrix]:
-    """Give the upper factor of products whose columns were divided by a scale."""
-    scale = _norms(product)
-    scaled = product / np.outer(scale, scale)
-    scaled[np.diag_indices_from(scaled)] += _RIDGE
-    return scale, cholesky(scaled)
-
-
-def _norms(product: Matrix) -> Vector:
-    """Give the norms of the columns that products were taken of."""
-    norms = np.sqrt(np.diag(product))
-    return np.where(norms > 0.0, norms, 1.0)
-
-
-def _solved(product: Matrix, moment: Vector) -> BaseParameters:
-    scale, upper = _cholesky(product)
-    return np.asarray(cho_solve((upper, False), moment / scale) / scale)
 
 
 def _relative(left: Vector, torque: Vector) -> float:

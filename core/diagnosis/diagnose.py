@@ -14,7 +14,6 @@ from ..arrays import BlockKey, JointSeries
 from ..dynamics.model import DynamicModel
 from ..identification.reference import Reference
 from ..log.model import JointLog
-from ..log.shifted import with_later_effort
 from ..regressor.columns import ColumnPlan
 from .bandwidth import Fitted, limit_bandwidth
 from .causes.external_contact import ExternalContact
@@ -28,7 +27,7 @@ from .checks.findings import finding, sample_finding
 from .checks.holdout_outliers import Explained, has_holdout_outliers, with_other_holdout, with_typical_holdout
 from .checks.kurtosis import bounded_residual
 from .checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
-from .dataset.dataset import Dataset, build_dataset, refuse_too_little
+from .dataset.dataset import Dataset, build_dataset, later_torque, refuse_too_little
 from .residual.atlas import atlas
 from .residual.learner import Predictable, predictable_share
 from .result import Diagnosis, Finding, NotIdentifiable, UnnamedPattern, Verdict
@@ -77,7 +76,7 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     faults, dataset = _check_samples(problem)
     refuse_too_little(dataset, problem.plan)
     found = _search_causes(_fitter(problem, dataset), tell)
-    found = restart_from_alignment(found, lambda seconds: _dataset(problem, dataset.width, seconds).torque)
+    found = restart_from_alignment(found, partial(later_torque, dataset))
     found = drop_what_motion_does_not_show(found, partial(_dataset, problem))
     tell("compare alternatives", 0.6)
     found, comparisons = _compare(found)
@@ -148,10 +147,11 @@ def _search(
     return restart_at_operating_point(found)
 
 
-def _dataset(problem: DiagnosisProblem, width: float, later: float = 0.0) -> Dataset:
-    """Give the data set of a width, its torque taken so many seconds later."""
-    logs = tuple(with_later_effort(log, later) for log in problem.logs)
-    return build_dataset(problem.model, logs, held_out=problem.held_out, blocks=problem.blocks, width=width)
+def _dataset(problem: DiagnosisProblem, width: float) -> Dataset:
+    """Give the data set of a width."""
+    return build_dataset(
+        problem.model, problem.logs, held_out=problem.held_out, blocks=problem.blocks, width=width
+    )
 
 
 def _compare(found: SearchState) -> tuple[SearchState, list[Comparison]]:
@@ -179,9 +179,7 @@ def _check_samples(problem: DiagnosisProblem) -> tuple[list[Finding], Dataset]:
     plain: list[Explained] = []
 
     def fit_at(width: float) -> Fitted:
-        dataset = build_dataset(
-            problem.model, problem.logs, held_out=problem.held_out, blocks=problem.blocks, width=width
-        )
+        dataset = _dataset(problem, width)
         fitter, found = _plain_fit(problem, dataset)
         plain.append((fitter, found))
         noise = tuple(joint.noise for joint in found.fit.joints)

@@ -17,7 +17,8 @@ from ..reduction.base import BaseModel
 from ..regressor.observe import Observation
 from ..robot.writing import to_description
 from ..signals.condition import Motion
-from ..validation.scores import JointScore, quality
+from ..validation.quality import quality
+from ..validation.scores import JointScore
 from .bodies import body_rows
 from .numbers import plain
 from .reference import write_factor

@@ -10,7 +10,7 @@ from ..diagnosis.causes.registry import BY_ID
 from ..diagnosis.separability import Pair, Separability, Shown, Smallest
 from ..identification.result import Identification
 from ..precision.inference import relative_deviation_percent
-from ..validation.scores import quality
+from ..validation.quality import quality
 from .identification import grouping_row, identification_document
 from .numbers import plain
 

@@ -11,7 +11,7 @@ from ..estimate.plausibility import DENSEST
 from ..log.model import Defect
 from ..regressor.block import Block
 from ..robot.extent import Extent
-from ..validation.scores import quality
+from ..validation.quality import quality
 from .result import Identification
 
 HIGH_COST = 1.25

@@ -1,14 +1,13 @@
 """Integrate a damped oscillator whose coefficients change along a series.
 
 Over a step its coefficients are taken as constant, and its free motion is exact. The weights of the three
-pulls about a sample are those that are exact for pulls up to second order in time. Source: Golub & Van Loan,
-Matrix Computations, ch. 4.3 (banded solution).
+pulls about a sample are those that are exact for pulls up to second order in time.
 """
 
 import numpy as np
-from scipy.linalg import solve_banded
 
 from ..arrays import Samples
+from .recursions import follow
 
 MOST_DAMPED = 0.999
 """Share of critical damping from which on more is taken for this: the free motion then no longer swings."""
@@ -43,15 +42,9 @@ def swing(pulls: Samples, step: float, squares: Samples, decays: Samples) -> Sam
     bend = (1.0 + twice) / squares - 2.0 * (late / step) * slope
     first = slope - late / step * rest
     second = bend + 2.0 * rest * (late**2 - 1.0 / squares) / step**2
-    padded = np.pad(pulls, 1, mode="edge")
-    driven = rest * pulls
-    driven += 0.5 * first * (padded[2:] - padded[:-2])
-    driven += 0.5 * second * (padded[2:] - 2.0 * pulls + padded[:-2])
-    start = pulls[0] / squares[0]
-    driven[0] += (once[0] - twice[0]) * start
-    if len(pulls) > 1:
-        driven[1] -= twice[1] * start
-    bands = np.ones((3, len(pulls)))
-    bands[1, :-1], bands[2, :-2] = -once[1:], twice[2:]
-    following = solve_banded((2, 0), bands, driven, check_finite=False)
-    return np.append(start, following[:-1])
+    change = np.diff(pulls, prepend=pulls[:1], append=pulls[-1:])
+    before, after = change[:-1], change[1:]
+    driven = rest * pulls + 0.5 * first * (after + before) + 0.5 * second * (after - before)
+    followed = np.empty(len(pulls))
+    follow(driven, once, twice, pulls[0] / squares[0], followed)
+    return followed

@@ -256,6 +256,23 @@ def _ranges(loose: np.ndarray, begins: np.ndarray, factor: np.ndarray) -> tuple[
     return lowest, above, np.append(True, np.maximum.accumulate(tied) < np.arange(1, many + 1))
 
 
+@njit("void(float64[::1], float64[::1], float64[::1], float64, float64[::1])", **_EXACT)
+def follow(driven, once, twice, start, followed) -> None:  # pragma: no cover  (compiled)
+    """Write a series of which each value is driven + once the one before it - twice the one before that.
+
+    Parameters
+    ----------
+    driven, once, twice
+        Of each value what the next one is made with.
+    start
+        The first value, and the one before it.
+    """
+    before, now = start, start
+    for sample in range(len(driven)):
+        followed[sample] = now
+        before, now = now, driven[sample] + once[sample] * now - twice[sample] * before
+
+
 @njit("void(float64[::1], float64, float64, float64[::1])", **_EXACT)
 def move_between_stops(pulls, step, half_width, twist) -> None:  # pragma: no cover  (compiled)
     """Write where something is between two stops that neither bounce nor pull: it rests there or flies.

@@ -40,7 +40,11 @@ def differentiate_throughout(values: JointSeries, rate_hz: float) -> InstantSeri
 
 def continued(values: JointSeries, samples: int) -> InstantSeries:
     """Continue a series beyond both ends by turning it about its end points."""
-    return np.pad(values, ((samples, samples), (0, 0)), mode="reflect", reflect_type="odd")
+    if len(values) <= samples:  # it has to be turned several times
+        return np.pad(values, ((samples, samples), (0, 0)), mode="reflect", reflect_type="odd")
+    before = 2.0 * values[:1] - values[samples:0:-1]
+    after = 2.0 * values[-1:] - values[-2 : -2 - samples : -1]
+    return np.concatenate([before, values, after])
 
 
 BEYOND_BENDS = 2.0

@@ -5,6 +5,7 @@ judged by.
 """
 
 from dataclasses import dataclass
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from scipy import signal
@@ -124,6 +125,10 @@ class Recipe:
     """Why these cut-offs, in one sentence."""
 
 
+# What was read off a log is not read off it again.
+_CHOSEN: WeakKeyDictionary[JointLog, dict[tuple[FilterOptions, bytes], Recipe]] = WeakKeyDictionary()
+
+
 def choose_recipe(log: JointLog, options: FilterOptions, prismatic: Mask | None = None) -> Recipe:
     """Read the motion's band off the log and settle the cut-offs, the decimation and the standstill speeds.
 
@@ -137,10 +142,15 @@ def choose_recipe(log: JointLog, options: FilterOptions, prismatic: Mask | None 
     OptionError
         If a given cut-off does not fit the log's rate or motion.
     """
-    rate = log.rate_hz
-    survey = _survey(log, options.median_order)
+    sliding = np.zeros(log.joints, dtype=bool) if prismatic is None else prismatic
+    known, asked = _CHOSEN.setdefault(log, {}), (options, sliding.tobytes())
+    return known[asked] if asked in known else known.setdefault(asked, _choose(log, options, sliding))
+
+
+def _choose(log: JointLog, options: FilterOptions, prismatic: Mask) -> Recipe:
+    rate, survey = log.rate_hz, _survey(log, options.median_order)
     bands, speeds, slowest = survey.bands, survey.speeds, min(survey.slowest, *segment_rates(log))
-    still_speed = _still_speed(survey, np.zeros(len(speeds), dtype=bool) if prismatic is None else prismatic)
+    still_speed = _still_speed(survey, prismatic)
     moving = bands[speeds > still_speed]
     band = float(moving.max()) if len(moving) else 1.0
     nyquist = 0.5 * min(rate, slowest)

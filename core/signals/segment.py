@@ -93,9 +93,8 @@ class Segment:
 
     def tile(self, effort_scale: JointVector, first_kept: int, last_kept: int, block: int) -> Tile:
         """Condition the stretch that the kept instants from first up to, not including, last need."""
-        step, reach = self.recipe.decimation, self.parallel.reach
-        first, last = first_kept * step, (last_kept - 1) * step
-        begin, end = max(0, first - reach), min(self.samples, last + reach + 1)
+        step = self.recipe.decimation
+        first, (begin, end) = first_kept * step, self._seen(first_kept, last_kept)
         # A standstill is known by its length, so the search for it reaches that much further than the filter.
         halo = max(self.still_samples, self.direction_samples + 1)
         early, late = max(0, begin - halo), min(self.samples, end + halo)
@@ -123,6 +122,17 @@ class Segment:
             block=block,
             follows=first_kept > 0,
         )
+
+    def effort(self, first_kept: int, last_kept: int) -> tuple[JointSeries, int]:
+        """Give the effort that such kept instants see, and the sample at which the first of them lies."""
+        begin, end = self._seen(first_kept, last_kept)
+        _, effort, _ = self._read(begin, end)
+        return effort, first_kept * self.recipe.decimation - begin
+
+    def _seen(self, first_kept: int, last_kept: int) -> tuple[int, int]:
+        """Give the samples that kept instants see, from the first up to, not including, the last."""
+        step, reach = self.recipe.decimation, self.parallel.reach
+        return max(0, first_kept * step - reach), min(self.samples, (last_kept - 1) * step + reach + 1)
 
     def _condition(self, begin: int, end: int) -> tuple[MotionState, JointSeries, SampleMask]:
         """Give state, torque, and what rests on instants at which nothing was measured."""

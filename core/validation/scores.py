@@ -14,10 +14,6 @@ from ..regressor.factor import Factor
 from ..regressor.observe import Observation
 from ..robot.joint_units import prismatic_joints
 
-QUALITIES = (("good", 10.0), ("fair", 25.0), ("poor", 50.0), ("failed", np.inf))
-"""Words for an error in per cent of the RMS torque, with the largest that each is said of. Set by hand:
-drives of measured arms leave 1 to 10 %, and a model that leaves more than half describes no joint."""
-
 
 @dataclass(frozen=True)
 class JointScore:
@@ -79,17 +75,6 @@ def _score(joint: int, blocks: list[Block], sums: tuple[float, float, int]) -> J
     ranges = np.array([block.torque_range[joint] for block in blocks]).reshape(-1, 2)
     span = float(ranges[:, 1].max() - ranges[:, 0].min()) if rows else 0.0
     return JointScore(joint + 1, rows, level, residual, _percent(residual, span), _percent(residual, level))
-
-
-def quality(error_percent: float) -> str:
-    """Say in a word how well a joint is predicted.
-
-    Examples
-    --------
-    >>> quality(3.0), quality(106.0)
-    ('good', 'failed')
-    """
-    return next(word for word, largest in QUALITIES if error_percent <= largest)
 
 
 def _percent(part: float, whole: float) -> float:

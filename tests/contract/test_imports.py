@@ -118,3 +118,12 @@ def test_a_forbidden_import_is_refused_by_its_contract(tmp_path, contract, impor
 
 def test_every_contract_has_been_seen_to_refuse_something():
     assert {contract["id"] for contract in CONTRACTS} == {contract for contract, _, _ in REFUSED}
+
+
+def test_a_service_starts_without_what_only_its_computations_need():
+    heavy = {"clarabel", "numba", "scipy", "sklearn"}
+    code = f"import sys, veritorque.app.main; print(*sorted({heavy} & set(sys.modules)))"
+    loaded = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    assert not loaded.stdout.split()

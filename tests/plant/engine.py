@@ -55,7 +55,7 @@ class Plant:
         # MuJoCo's arrays stay where they are; asking for them takes longer than most of what is done to them.
         data = self.data
         self.angle, self.rate, self.pushed = data.qpos, data.qvel, data.qfrc_applied
-        self.resisted, self.damped = data.qfrc_constraint, data.qfrc_passive
+        self.resisted, self.damped, self.accelerated = data.qfrc_constraint, data.qfrc_passive, data.qacc
 
     def _set_drives(self) -> None:
         model, arm = self.model, self.arm
@@ -89,9 +89,8 @@ class Plant:
         if self.loads:
             self._take_up()
         mujoco.mj_forward(self.model, self.data)
-        self.before = self.velocity
-        self.acceleration = self.data.qacc.copy()
-        self.velocity = self.before + self.step * self.acceleration
+        self.acceleration = self.accelerated.copy()
+        self.velocity = self.velocity + self.step * self.acceleration
         self.angle += self.step * self.velocity
         state.time += self.step
         return torque
@@ -146,22 +145,21 @@ class Plant:
         mujoco.mj_jac(self.model, self.data, jacobian, None, point, self.tip)
         return jacobian[:, : self.arm.joints]
 
-    def seen(self) -> tuple[np.ndarray, ...]:
-        """Give motor position, half-step velocities, acceleration, direction of own and of coupling friction.
-
-        Those of the step just taken, at its beginning.
-        """
-        count = self.sums
-        coupled = self.data.efc_force[-count:] if count else np.zeros(len(self.arm.motors))
+    def direction(self) -> np.ndarray:
+        """Give the direction of every joint's own friction in the step just taken, at its beginning."""
         friction = -self.resisted[self.motor]
-        for coupling, force in zip(self.arm.robot.couplings, coupled, strict=True):
-            friction[np.array(coupling.joints) - 1] += force * np.array(coupling.weights)
+        if self.sums:
+            for coupling, force in zip(self.arm.robot.couplings, self.coupled(), strict=True):
+                friction[np.array(coupling.joints) - 1] += force * np.array(coupling.weights)
         if self.frictions:
             self._own_direction(friction)
         else:
             friction /= self.level
-        sums = -coupled / self.arm.motors[:, 2] if count else coupled
-        return self.state.position, self.before, self.velocity, self.acceleration, friction, sums
+        return friction
+
+    def coupled(self) -> np.ndarray:
+        """Give the friction forces of coupled motors in the step just taken."""
+        return self.data.efc_force[-self.sums :]
 
     def _own_direction(self, friction: np.ndarray) -> None:
         """Divide friction by its level; an effect that takes the level away tells the direction itself."""
@@ -221,15 +219,21 @@ def simulate(
 ) -> Recording:
     """Let the arm follow the motion and record every step."""
     plant = Plant(arm, effects, steering.centre)
-    rows = []
-    for command in steering.command:
-        torque = plant.advance(command, steering.gain, steering.damping)
-        rows.append((torque, *plant.seen()))
-    torque, position, before, after, acceleration, direction, sums = (
-        np.array(column) for column in zip(*rows, strict=True)
-    )
-    velocity = 0.5 * (before + after)[:, plant.motor]
-    series = (position, velocity, acceleration[:, plant.motor], torque, direction, sums)
+    steps, joints = steering.command.shape
+    position, torque, direction = (np.empty((steps, joints)) for _ in range(3))
+    # The plant's own, motors and links, at the half steps before, at the first and at the others.
+    velocity, acceleration = np.empty((steps + 1, plant.model.nv)), np.empty((steps, plant.model.nv))
+    velocity[0] = plant.velocity
+    coupled = np.zeros((steps, len(arm.motors)))
+    for step, command in enumerate(steering.command):
+        torque[step] = plant.advance(command, steering.gain, steering.damping)
+        position[step], direction[step] = plant.state.position, plant.direction()
+        velocity[step + 1], acceleration[step] = plant.velocity, plant.acceleration
+        if plant.sums:
+            coupled[step] = plant.coupled()
+    mean = 0.5 * (velocity[:-1] + velocity[1:])[:, plant.motor]
+    sums = -coupled / arm.motors[:, 2] if plant.sums else coupled
+    series = (position, mean, acceleration[:, plant.motor], torque, direction, sums)
     return Recording(round(STEPS_PER_SECOND / rate_hz), *series)
 
 

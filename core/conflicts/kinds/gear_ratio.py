@@ -40,16 +40,16 @@ def _likeliest(setup: Setup, trials: Trials, joint: int) -> float | None:
 
     The first estimate is linear. The noise of the torque makes it too small.
     """
-    equations = trials.equations(setup)
-    first = equations.likeliest_factor(joint)
+    normal = trials.equations(setup).normal
+    first = normal.likeliest_factor(joint)
     if first is None:
         return None
 
     def bound(logarithm: float) -> float:
-        return trials.bound(trials.equations(_scaled(setup, joint, float(np.exp(logarithm)))))
+        return trials.equations(_scaled(setup, joint, float(np.exp(logarithm)))).normal.bound
 
     middle = np.log(first)
-    if trials.bound(equations) - bound(middle) < RATIO.promising:
+    if normal.bound - bound(middle) < RATIO.promising:
         return None
     around = middle - RATIO.around, middle + RATIO.around
     found = minimize_scalar(bound, bounds=around, method="bounded", options={"xatol": RATIO.tolerance})

@@ -52,7 +52,7 @@ def _likeliest(setup: Setup, trials: Trials, place: int, entry: EntryName) -> fl
     """Minimise what least squares leaves over the error of a length, coarsely and then finely."""
 
     def bound(change: float) -> float:
-        return trials.bound(trials.equations(_changed(setup, place, entry, change)))
+        return trials.equations(_changed(setup, place, entry, change)).normal.bound
 
     scores = [bound(change) for change in LENGTH.coarse]
     best = int(np.argmin(scores))

@@ -26,7 +26,7 @@ from ...signals.condition import Motion, condition
 from ...signals.recipe import FilterOptions, choose_recipe
 from ...signals.state import MotionState, concatenate_states
 from ..thresholds.dataset import BAND, ROWS
-from .segments import DatasetSegment, segments_of, thinning
+from .segments import DatasetSegment, later_torques, segments_of, thinning
 from .stretch import Stretch
 
 BATCH = 64
@@ -182,9 +182,20 @@ def refuse_too_little(dataset: Dataset, plan: ColumnPlan) -> None:
         )
 
 
+def later_torque(dataset: Dataset, seconds: float) -> JointSeries:
+    """Give a data set's torque, taken so many seconds later: rows x joints, N m or N."""
+    share = _share([motion.log.duration for motion in dataset.motions])
+    return np.vstack([part for motion in dataset.motions for part in later_torques(motion, share, seconds)])
+
+
+def _share(seconds: list[float]) -> float:
+    """Give the share of logs of so many seconds that a data set may hold."""
+    return min(1.0, ROWS.seconds / sum(seconds))
+
+
 def _segments(motions: Sequence[Motion], robot: RobotModel, seconds: list[float]) -> list[DatasetSegment]:
     """Cut all motions into segments, as many as the data set may hold of logs of so many seconds."""
-    share = min(1.0, ROWS.seconds / sum(seconds))
+    share = _share(seconds)
     parts = [part for log, motion in enumerate(motions) for part in segments_of(log, motion, robot, share)]
     if not parts:
         raise ExcitationError(

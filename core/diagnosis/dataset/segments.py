@@ -4,12 +4,14 @@ States are decimated as far as the parallel filter's bandwidth allows. Rows near
 marked: there the sign of a measured velocity is not the direction of friction.
 """
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import csr_array
 
-from ...arrays import Indices, JointMask
+from ...arrays import Indices, JointMask, JointSeries
+from ...log.shifted import with_later_effort
 from ...robot.model import RobotModel
 from ...signals.condition import Motion
 from ...signals.parallel import ParallelFilter
@@ -37,19 +39,34 @@ class DatasetSegment:
 
 def segments_of(number: int, motion: Motion, robot: RobotModel, share: float) -> list[DatasetSegment]:
     """Cut a log into stretches of half a minute at most, and keep the share of them that is asked for."""
-    out, done = [], 0
+    return [
+        _segment(number, motion, robot, segment, kept, done) for segment, kept, done in _spans(motion, share)
+    ]
+
+
+def later_torques(motion: Motion, share: float, seconds: float) -> list[JointSeries]:
+    """Give the torques of `segments_of`, each row's taken so many seconds later."""
+    log = with_later_effort(motion.log, seconds)
+    out = []
+    for segment, kept, _ in _spans(motion, share):
+        torque, first = replace(segment, log=log).effort(*kept)
+        series = np.ascontiguousarray((torque * motion.effort_scale).T)
+        out.append(segment.parallel.apply(series, first, kept[1] - kept[0]).T)
+    return out
+
+
+def _spans(motion: Motion, share: float) -> Iterator[tuple[Segment, tuple[int, int], int]]:
+    """Give each stretch that is kept: its part of the log, its kept instants there, and those before."""
+    done = 0
     for segment in motion.segments:
         step = segment.rate_hz / motion.recipe.decimation
         length = max(int(ROWS.stretch_seconds * step), 1)
         wanted = max(1, int(np.ceil(segment.kept * share / length)))
         size = min(segment.kept, int(np.ceil(segment.kept * share / wanted)))
         firsts = np.linspace(0, segment.kept - size, wanted).astype(int)
-        out += [
-            _segment(number, motion, robot, segment, (int(first), int(first) + size), done)
-            for first in firsts
-        ]
+        for first in firsts:
+            yield segment, (int(first), int(first) + size), done
         done += segment.kept
-    return out
 
 
 def _segment(

@@ -79,7 +79,8 @@ class AllJointsTerm(JointTerm):
 
     def series(self, robot: RobotModel, state: MotionState) -> Series:
         """Give the torque per unit parameter, joint after joint for each parameter."""
-        return np.vstack([torque.T for torque in self.torques(robot, state)])
+        torques = [torque.T for torque in self.torques(robot, state)]
+        return np.ascontiguousarray(torques[0]) if len(torques) == 1 else np.vstack(torques)
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the torque of all joints per unit of each parameter."""

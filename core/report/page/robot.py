@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from ...validation.scores import QUALITIES
+from ...validation.quality import QUALITIES
 from .render import Table, element
 from .units import effort, unit_of_mass_matrix
 from .whisker import whisker

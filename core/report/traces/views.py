@@ -13,7 +13,6 @@ from pathlib import Path
 
 import numpy as np
 import pyarrow.parquet as pq
-from scipy.signal import welch
 
 from ...arrays import Mask, Samples, Vector
 from ...errors import ExcitationError
@@ -123,6 +122,8 @@ def _runs(time: Samples, used: Mask) -> Iterator[slice]:
 
 def _density(signal: str, values: Samples, runs: list[slice], rate_hz: float) -> Density:
     """Average the runs' densities, each weighted by its rows."""
+    from scipy.signal import welch
+
     longest = max((run.stop - run.start for run in runs), default=0)
     if longest < SHORTEST_RUN:
         return Density(signal, np.zeros(0), np.zeros(0))
