@@ -34,6 +34,24 @@ from .tidy_lines import TidyLines
 
 FORM = "CSV"
 BLOCK_BYTES = 1 << 22
+ABSENT = (
+    "None",
+    "none",
+    "NONE",
+    "Null",
+    "NaT",
+    "NAN",
+    "-NAN",
+    "<NA>",
+    "-",
+    "--",
+    "---",
+    "?",
+    "-nan(ind)",
+    "nan(ind)",
+)
+"""What recorders write for a missing value, beside the usual words."""
+WIDEST_BLANK = 32
 _BAD_ROW = re.compile(
     r"Row #(?P<line>\d+): Expected (?P<columns>\d+) columns, got (?P<cells>\d+): (?P<text>.*)", re.DOTALL
 )
@@ -90,7 +108,10 @@ class DelimitedTable:
 
     def _batches(self, kinds: Mapping[str, pa.DataType]) -> Iterator[pa.RecordBatch]:
         convert = arrow_csv.ConvertOptions(
-            include_columns=list(kinds), column_types=dict(kinds), decimal_point=self.decimal
+            include_columns=list(kinds),
+            column_types=dict(kinds),
+            decimal_point=self.decimal,
+            null_values=_absent(),
         )
         read = arrow_csv.ReadOptions(
             column_names=list(self.names), skip_rows=self.skip, block_size=BLOCK_BYTES, use_threads=False
@@ -117,6 +138,13 @@ class DelimitedTable:
             if (row := _BAD_ROW.search(str(error))) is not None:
                 raise _row_length_error(row, self.delimiter) from error
             raise
+
+
+def _absent() -> list[str]:
+    """List what stands for a missing value, also behind a blank."""
+    words = [*arrow_csv.ConvertOptions().null_values, *ABSENT]
+    blanks = [" " * width for width in range(2, WIDEST_BLANK + 1)]
+    return [*words, *(f" {word}" for word in words), *blanks]
 
 
 class _RowJudge:
