@@ -33,7 +33,7 @@ from .pieces.choose import choose_rows
 from .pieces.missing import scarce_channels, scarce_defect
 from .pieces.survey import survey
 from .profiles import fill_in
-from .suggestion import suggest_mappings
+from .suggestion import explained, suggest_mappings
 
 OPENERS: dict[Form, Callable[[Path], Table]] = {
     DELIMITED: open_delimited,
@@ -92,7 +92,7 @@ def _with_suggestion(error: LogError, table: Table) -> LogError:
     """Add the mapping that the names of the columns suggest, to be confirmed."""
     mappings = suggest_mappings(table)
     if not mappings:
-        return error
+        return explained(error, table)
     evidence = error.evidence | {"suggested_mappings": mappings}
     several = ", one for each arm" if len(mappings) > 1 else ""
     written = " or ".join(json.dumps(mapping, ensure_ascii=False) for mapping in mappings)

@@ -119,7 +119,7 @@ def missing_defects(
     ]
     more = len(worst) - SHOWN_COLUMNS
     statement = (
-        f"{lacking} of {samples} rows ({100.0 * lacking / samples:.2g} %) lack a value, which is {WHAT}, "
+        f"{lacking} of {samples} rows ({100.0 * lacking / samples:.2g} %) lack a value ({WHAT}) "
         f"and are left out for all joints: {', '.join(shown)}"
         + (f" and {count_text(more, 'more column')}" if more > 0 else "")
         + "."
