@@ -26,7 +26,7 @@ from .effect import AllJointsTerm, rates, step_of
 LEAST_INERTIA = 0.05
 """Share of the mean moved inertia below which none is taken: a fit may give a posture one of any sign."""
 MOST_SWING = 1e6
-"""Times what a link moves that follows its pull at once; set by hand, thousands of times a light resonance."""
+"""Times what a link moves that follows its pull at once; set by hand, far above any resonance."""
 LEAST_STIFFNESS = 0.2
 """Share of the spring's stiffness that the load's slope by position leaves of it at least."""
 
