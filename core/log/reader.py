@@ -89,7 +89,7 @@ def read_log(
 
 
 def _with_suggestion(error: LogError, table: Table) -> LogError:
-    """Add the mapping that the names of the columns suggest, to be confirmed."""
+    """Add the mapping that names and values of the columns suggest, to be confirmed."""
     mappings = suggest_mappings(table)
     if not mappings:
         return explained(error, table)
@@ -99,7 +99,7 @@ def _with_suggestion(error: LogError, table: Table) -> LogError:
     return LogError(
         error.cause,
         evidence=evidence,
-        remedy=f"{error.remedy}; or check the mapping that the names suggest{several}: {written}",
+        remedy=f"{error.remedy}; or check the mapping that the columns suggest{several}: {written}",
     )
 
 
