@@ -77,8 +77,12 @@ def _named_channels(names: Sequence[str]) -> list[dict[str, list[str]]]:
 
 
 def explained(error: LogError, table: Table) -> LogError:
-    """Say of a file that holds positions alone, or efforts alone, that the others are to be joined to it."""
-    if (half := _half(table)) is None:
+    """Say of a file that holds positions alone, or efforts alone, that the others are to be joined to it.
+
+    A clock of another name would be asked for first, and be of no use.
+    """
+    half = _half(table)
+    if half is None or error.evidence.get("looked_for") != [TIME]:
         return error
     there, absent = half
     return LogError(
