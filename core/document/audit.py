@@ -100,7 +100,11 @@ def _contradiction(
     name = robot.links[entry.link - 1].name
     old, new = (_value(table, entry) for table in (described, corrected))
     others = [_entry(other, robot) for other in found.alternatives]
-    statement = f"{TITLES[entry.kind]} of link {entry.link} ({name}): described {old[1]}, measured {new[1]}"
+    chance = f"p = {found.p_value:.1g}" if found.p_value > 0.0 else "p < 1e-300"
+    statement = (
+        f"{TITLES[entry.kind]} of link {entry.link} ({name}): described {old[1]}, measured {new[1]} "
+        f"({chance}, corrected for the number of entries)"
+    )
     return {
         **_entry(entry, robot),
         "described": old[0],

@@ -103,7 +103,7 @@ class AssignedSource:
 
 
 def assigned(log: JointLog, assignment: Assignment) -> JointLog:
-    """Give a log as an assignment reads it; its defects follow their channels."""
+    """Give a log as an assignment reads it; its defects follow their channels, or are answered by it."""
     if assignment == Assignment.as_measured(log.joints):
         return log
     factor = assignment.time_factor
@@ -112,9 +112,23 @@ def assigned(log: JointLog, assignment: Assignment) -> JointLog:
         source=AssignedSource(log.source, assignment),
         rate_hz=log.rate_hz / factor,
         duration=log.duration * factor,
-        defects=tuple(_assigned_defect(defect, assignment) for defect in log.defects),
+        defects=tuple(
+            _assigned_defect(defect, assignment)
+            for defect in log.defects
+            if not _is_answered(defect, assignment)
+        ),
         bindings=tuple(_assigned_binding(binding, assignment) for binding in log.bindings),
     )
+
+
+def _is_answered(defect: Defect, assignment: Assignment) -> bool:
+    """Tell whether a defect is that of a size which the assignment changes."""
+    if defect.kind != "implausible_unit":
+        return False
+    if defect.joint is None:
+        return assignment.time_factor != 1.0
+    channels = assignment.position if defect.channel in _LIKE_POSITION else assignment.torque
+    return abs(channels.factor[channels.source.index(defect.joint - 1)]) != 1.0
 
 
 def _assigned_defect(defect: Defect, assignment: Assignment) -> Defect:

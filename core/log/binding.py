@@ -5,7 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import JointSeries, Series
-from .channels import TIME, UNITS
+from .channels import TIME, UNITS, Unit
+
+ROUNDING = 1e-9
+"""Relative error that unit and scale may have from being multiplied and divided."""
 
 
 @dataclass(frozen=True)
@@ -50,18 +53,45 @@ class Binding:
         --------
         >>> Binding("torque", ("m1",), (-0.001,), (0.0,), ("mN m",)).as_mapping()
         {'columns': ['m1'], 'unit': ['mN m'], 'scale': [-1.0]}
+
+        A factor that is another unit's is written as this unit.
+
+        >>> Binding("position", ("q1",), (np.pi / 180.0,), (0.0,), ("rad",)).as_mapping()
+        {'columns': ['q1'], 'unit': ['deg']}
         """
         if self.name == TIME:
             return {"column": self.columns[0], **({"unit": self.units[0]} if self.units else {})}
+        declared = self.units or (next(iter(UNITS[self.name])),) * len(self.columns)
         units = [
-            UNITS[self.name][unit]
-            for unit in self.units or (next(iter(UNITS[self.name])),) * len(self.columns)
+            _unit_of(gain, UNITS[self.name][unit], self.name)
+            for gain, unit in zip(self.gain, declared, strict=True)
         ]
         scale = [gain / unit.factor for gain, unit in zip(self.gain, units, strict=True)]
         offset = [bias / unit.factor - unit.offset for bias, unit in zip(self.bias, units, strict=True)]
         mapping: dict[str, object] = {"columns": list(self.columns), "unit": [unit.name for unit in units]}
-        if any(value != 1.0 for value in scale):
-            mapping["scale"] = scale
+        if any(_rounded(value) != 1.0 for value in scale):
+            mapping["scale"] = [_rounded(value) for value in scale]
         if any(offset):
             mapping["offset"] = offset
         return mapping
+
+
+def _unit_of(gain: float, declared: Unit, channel: str) -> Unit:
+    """Give the unit of which a gain is the factor, but for its sign; else the declared one."""
+    if declared.offset or declared.needs_scale or _is_factor(gain, declared):
+        return declared
+    alike = (
+        unit
+        for unit in UNITS[channel].values()
+        if unit.prismatic == declared.prismatic and not (unit.needs_scale or unit.offset)
+    )
+    return next((unit for unit in alike if _is_factor(gain, unit)), declared)
+
+
+def _is_factor(gain: float, unit: Unit) -> bool:
+    return bool(np.isclose(abs(gain), unit.factor, rtol=ROUNDING, atol=0.0))
+
+
+def _rounded(scale: float) -> float:
+    """Take a scale that is one but for a rounding error for one."""
+    return float(np.rint(scale)) if abs(abs(scale) - 1.0) < ROUNDING else scale

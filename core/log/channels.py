@@ -160,7 +160,8 @@ CHANNELS: Final[dict[str, Channel]] = {
         ),
         Channel(
             "position", "q", POSITIONS, "measured position of the joint", "always",
-            ("q", "pos", "position", "positions", "angle", "angles", "theta", "joint", "ang", "state"),
+            ("q", "pos", "position", "positions", "angle", "angles", "theta", "joint", "joints", "ang",
+             "state"),
         ),
         Channel(
             "velocity", "qd", VELOCITIES, "velocity of the joint, as the recorder gives it", "optional",
@@ -205,6 +206,18 @@ UNITS: Final = {
 """Units by channel and name, the SI unit of default names first."""
 
 REFERENCE_WORDS: Final = frozenset(
-    ("ref", "reference", "des", "desired", "cmd", "command", "commanded", "target", "setpoint", "goal")
+    (
+        "ref",
+        "reference",
+        "des",
+        "desired",
+        "cmd",
+        "command",
+        "commanded",
+        "target",
+        "setpoint",
+        "goal",
+        "planned",
+    )
 )
 """Words by which a column's name tells that it was asked for and not measured."""

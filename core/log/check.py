@@ -15,7 +15,7 @@ from .binding import Binding
 from .channels import TIME
 from .model import JointLog
 from .reader import bind_columns, open_table, read_table
-from .suggestion import suggest_mappings, suggest_units
+from .suggestion import explained, suggest_mappings, suggest_units
 
 PIECE_ROWS = 1 << 16
 
@@ -65,8 +65,9 @@ def check_log(path: Path, *, mapping: Mapping[str, object] | None = None) -> Log
     except LogError as error:
         arms = [] if mapping else suggest_mappings(table)
         suggestion = next(iter(arms), None)
+        refusal = error if mapping or arms else explained(error, table)
         return LogCheck(
-            form.name, table.names, refusal=error, suggestion=suggestion, other_arms=tuple(arms[1:])
+            form.name, table.names, refusal=refusal, suggestion=suggestion, other_arms=tuple(arms[1:])
         )
     recognised = tuple(filter(None, (layout.time, *layout.channels)))
     try:

@@ -9,7 +9,7 @@ from collections.abc import Collection, Sequence
 
 from .channels import JOINT_CHANNELS, REFERENCE_WORDS
 
-_CHANNEL_WORDS = frozenset(word for channel in JOINT_CHANNELS for word in channel.words) - {"joint"}
+_CHANNEL_WORDS = frozenset(word for channel in JOINT_CHANNELS for word in channel.words) - {"joint", "joints"}
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 _BRACKETS = re.compile(r"[\[({<][^\[\](){}<>]*[A-Za-z%°][^\[\](){}<>]*[\])}>]")
 _INDEX = re.compile(r"\d+")
@@ -29,6 +29,15 @@ _GERMAN = {
 """German words of controllers' exports, and the English ones that tell the same channel."""
 _GERMAN_FIRST = re.compile(r"(ist|soll|motor)([a-z]{4,})")
 """First part of a German compound: actual, asked for, of the motor."""
+
+
+_ALONG = (
+    "base", "waist", "torso", "shoulder", "upper", "upperarm", "elbow", "lower", "lowerarm", "forearm",
+    "wrist", "hand", "flange", "tool", "gripper", "finger",
+)  # fmt: skip  # a table
+"""Parts of an arm from its base on, by which its joints are called."""
+_BEFORE = ("pan", "yaw", "lift", "pitch", "flex")
+"""Of two joints of one part, the one about the vertical comes first."""
 
 
 def name_words(name: str) -> set[str]:
@@ -87,6 +96,52 @@ def named_families(names: Sequence[str]) -> dict[str, list[str]]:
     return families
 
 
+def tells_a_part(stem: str) -> bool:
+    """Tell whether a name calls a joint by its part of the arm, such as its wrist.
+
+    Examples
+    --------
+    >>> tells_a_part("position.wrist_ _joint"), tells_a_part("arm pos ")
+    (True, False)
+    """
+    return not name_words(stem).isdisjoint(_ALONG)
+
+
+def along_arm(names: Sequence[str]) -> list[str]:
+    """Put names in the order of an arm from its base on, where all tell a part of it; else as they come.
+
+    Recorders often write joints in the order of the alphabet.
+
+    Examples
+    --------
+    >>> along_arm(["elbow_pos", "shoulder_lift_pos", "shoulder_pan_pos", "wrist_2_pos", "wrist_1_pos"])
+    ['shoulder_pan_pos', 'shoulder_lift_pos', 'elbow_pos', 'wrist_1_pos', 'wrist_2_pos']
+    """
+    if not all(map(tells_a_part, names)):
+        return list(names)
+    return sorted(names, key=_place)
+
+
+def _place(name: str) -> tuple[int, int, int]:
+    words, numbers = name_words(name), _INDEX.findall(name)
+    part = next(place for place, word in enumerate(_ALONG) if word in words)
+    way = next((place for place, word in enumerate(_BEFORE) if word in words), len(_BEFORE))
+    return part, way, int(numbers[-1]) if numbers else 0
+
+
+def single_families(names: Sequence[str]) -> dict[str, list[str]]:
+    """Give the columns of one joint, which need no number; empty where two tell the same channel.
+
+    Examples
+    --------
+    >>> single_families(["t", "angle", "torque"])
+    {'angle': ['angle'], 'torque': ['torque']}
+    """
+    told = {name: channel for name in names if (channel := channel_of(name, ())) is not None}
+    unclear = len(set(told.values())) < len(told)
+    return {} if unclear else {name: [name] for name in told}
+
+
 def arm_of(stem: str) -> frozenset[str]:
     """Give the words of a name that are neither a quantity's nor a reference's: those of an arm, if any.
 
@@ -95,7 +150,9 @@ def arm_of(stem: str) -> frozenset[str]:
     >>> arm_of("left_q ")
     frozenset({'left'})
     """
-    return frozenset(name_words(stem) - _CHANNEL_WORDS - REFERENCE_WORDS - {"joint", "actual", "measured"})
+    return frozenset(
+        name_words(stem) - _CHANNEL_WORDS - REFERENCE_WORDS - {"joint", "joints", "actual", "measured"}
+    )
 
 
 def channel_of(stem: str, known: Collection[str]) -> str | None:

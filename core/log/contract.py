@@ -1,4 +1,4 @@
-"""Refuse samples that no study can use: not finite, out of order, too few, or without any motion or torque.
+"""Refuse samples that no study can use: out of order, too few, or without any motion or torque.
 
 All of it is counted in one pass over the log, so that an error states how much is wrong and where it starts.
 """
@@ -7,20 +7,18 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..arrays import JointVector, SampleMask, Series
+from ..arrays import JointVector, Series
 from ..errors import LogError
 from .channels import EFFORTS
-from .defects.stretch import Facts, Stretch, count_text
+from .defects.stretch import Facts, Stretch
 from .layout import Layout
 
 FEWEST_ROWS = 100
 SHORTEST_SECONDS = 1.0
 WHOLE_TURN_TOLERANCE = 0.1
 """Rad that a joint may move between two samples and still count as wrapped by a turn."""
-LARGEST = 1e15
 SHORTEST_STEP = 1e-6
 """Of time, in s: no drive is sampled at a megahertz."""
-FIRST_ROWS = 5
 UNRELATED, UNRELATED_SPREAD = 2.0, 6.0
 """Von Neumann's ratio of samples without order, and three standard deviations of it times the root of their
 number. That of a motion is far below 1, unless it is sampled three times per period or less."""
@@ -79,10 +77,8 @@ class Contract:
     """
 
     def __init__(self, layout: Layout, row_in_file: Callable[[int], int]) -> None:
-        self._layout = layout
         self._row_in_file = row_in_file
         self._columns = {channel.name: channel.columns for channel in layout.channels}
-        self._bad: dict[str, tuple[int, list[int]]] = {}
         self._backwards = self._duplicates = 0
         self._hurried: float | None = None
         self._first_disorder: tuple[int, float, float] | None = None
@@ -96,22 +92,18 @@ class Contract:
         self._order(stretch)
         self._wraps(stretch)
         for name, values in stretch.new().items():
-            self._extremes(name, values, stretch.first + stretch.context)
-        return not (self._bad or self._backwards or self._duplicates or self._hurried)
+            self._extremes(name, values)
+        return not (self._backwards or self._duplicates or self._hurried)
 
-    def _extremes(self, name: str, values: Series, first: int) -> None:
+    def _extremes(self, name: str, values: Series) -> None:
         low, high = values.min(axis=1), values.max(axis=1)
-        usable = (low > -LARGEST) & (high < LARGEST)
-        for joint in np.flatnonzero(~usable):
-            self._count(self._columns[name][joint], ~(np.abs(values[joint]) < LARGEST), first)
         self.low[name] = np.fmin(self.low.get(name, low), low)
         self.high[name] = np.fmax(self.high.get(name, high), high)
 
     def _wraps(self, stretch: Stretch) -> None:
         """Count steps of a whole turn between samples that otherwise move by a fraction of one."""
-        with np.errstate(invalid="ignore"):  # values that are not finite are refused by name elsewhere
-            steps = np.abs(np.diff(stretch.position[:, stretch.first_new :], axis=1))
-            waits = np.diff(stretch.time[stretch.first_new :])
+        steps = np.abs(np.diff(stretch.position[:, stretch.first_new :], axis=1))
+        waits = np.diff(stretch.time[stretch.first_new :])
         prompt = waits < 3.0 * np.median(waits)
         turns = (np.abs(steps - 2.0 * np.pi) < WHOLE_TURN_TOLERANCE) & prompt
         if not turns.any():
@@ -136,10 +128,6 @@ class Contract:
 
     def _order(self, stretch: Stretch) -> None:
         time = stretch.time[stretch.first_new :]
-        if not np.isfinite(time).all():
-            new = stretch.time[stretch.context :]
-            self._count(self._time_name, ~np.isfinite(new), stretch.first + stretch.context)
-            return
         self.start = float(time[0]) if np.isnan(self.start) else self.start
         self.stop = float(time[-1])
         disorder = np.flatnonzero(time[1:] <= time[:-1])
@@ -153,16 +141,6 @@ class Contract:
             row = self._row_in_file(stretch.first + stretch.first_new + at + 1) + 1
             self._first_disorder = self._first_disorder or (row, float(time[at]), float(time[at + 1]))
 
-    @property
-    def _time_name(self) -> str:
-        return self._layout.time.columns[0] if self._layout.time else "time"
-
-    def _count(self, column: str, bad: SampleMask, first: int) -> None:
-        count, rows = self._bad.get(column, (0, []))
-        new = (self._row_in_file(int(row) + first) + 1 for row in np.flatnonzero(bad)[:FIRST_ROWS])
-        rows = [*rows, *new][:FIRST_ROWS]
-        self._bad[column] = count + int(np.count_nonzero(bad)), rows
-
     def check(self) -> None:
         """Refuse the log if it must be.
 
@@ -171,7 +149,6 @@ class Contract:
         LogError
             With what was counted; rows count from 1, the header is none.
         """
-        self._check_finite()
         self._check_order()
         self._check_wraps()
         if self._hurried is not None:
@@ -187,21 +164,6 @@ class Contract:
                 remedy="log at least 1 s of motion, better 10 s or more, and check the unit of time",
             )
         self._check_alive()
-
-    def _check_finite(self) -> None:
-        if self._bad:
-            first, (count, rows) = next(iter(self._bad.items()))
-            raise LogError(
-                f"the column {first!r} holds {count_text(count, 'value')} missing, not finite or beyond any "
-                f"size, the first in row {rows[0]}",
-                evidence={
-                    "columns": {
-                        column: {"rows": count, "first_rows": rows}
-                        for column, (count, rows) in self._bad.items()
-                    }
-                },
-                remedy="cut these rows out or repair them; a channel not needed can be mapped to null",
-            )
 
     def _check_order(self) -> None:
         if self._first_disorder is None:

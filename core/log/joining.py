@@ -17,6 +17,7 @@ from ..arrays import Instants, Samples
 from ..errors import LogError
 from .channels import CHANNELS, TIME, UNITS
 from .column_families import channel_of, name_words
+from .defects.stretch import count_text
 from .formats.table import Table, check_values
 from .named_units import unit_called, unit_in_name
 from .plausible_units import plausible_readings
@@ -78,9 +79,8 @@ def join_logs(paths: Sequence[Path]) -> Joined:
             )
     check_values(len(columns) * len(clock))
     if not inside.all():
-        notes.append(
-            f"{int(np.count_nonzero(~inside))} rows of {first.name} outside the shared time left out"
-        )
+        outside = count_text(int(np.count_nonzero(~inside)), "row")
+        notes.append(f"{outside} of {first.name} outside the shared time left out")
     return Joined(columns, tuple(notes))
 
 

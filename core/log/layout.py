@@ -6,7 +6,7 @@ columns looked for, those that are there, and plausible readings.
 
 import re
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -51,6 +51,25 @@ class Layout:
     def joints(self) -> int:
         """Count the joints."""
         return len(self.channels[0].columns)
+
+    @property
+    def default_references(self) -> tuple[str, ...]:
+        """Name the reference channels that the log has by default names, and the user has not asked for."""
+        return tuple(
+            bound.name
+            for bound in self.channels
+            if CHANNELS[bound.name].need == "reference"
+            and all(name.startswith(CHANNELS[bound.name].prefix) for name in bound.columns)
+        )
+
+    def without(self, channels: Collection[str]) -> "Layout":
+        """Leave channels out; their columns are ignored."""
+        left = [bound for bound in self.channels if bound.name in channels]
+        return replace(
+            self,
+            channels=tuple(bound for bound in self.channels if bound not in left),
+            ignored=(*self.ignored, *(column for bound in left for column in bound.columns)),
+        )
 
     def si_units(self) -> dict[str, tuple[str, ...]]:
         """Name the SI unit of every channel, joint by joint.

@@ -13,6 +13,9 @@ from ..errors import LogError
 from .channels import CHANNELS, TIME
 from .formats.table import Table
 
+GROWING = 0.9
+"""A clock goes on over at least this share of its steps, though a recorder starts anew or rows overtake."""
+
 
 def plausible_readings(channel: str, values: Vector) -> list[str]:
     """Rank the units in which these values make sense.
@@ -36,6 +39,8 @@ def plausible_readings(channel: str, values: Vector) -> list[str]:
     """
     finite = values[np.isfinite(values)]
     if len(finite) == 0:
+        return []
+    if channel == TIME and np.mean(np.diff(finite) >= 0.0) < GROWING:
         return []
     whole = bool(np.all(finite == np.round(finite)))
     size, seen = _size(channel, finite)

@@ -28,10 +28,12 @@ from .formats.recording import open_bag, open_mcap
 from .formats.table import Table
 from .layout import Layout, bind
 from .mapping import by_name, parse_mapping
-from .model import ArraySource, Defect, JointLog, LogRows
-from .pieces.choose import Chosen, choose_rows
+from .model import ArraySource, Defect, JointLog, LogRows, LogSource
+from .pieces.choose import choose_rows
+from .pieces.missing import scarce_channels, scarce_defect
+from .pieces.survey import survey
 from .profiles import fill_in
-from .suggestion import suggest_mappings
+from .suggestion import explained, suggest_mappings
 
 OPENERS: dict[Form, Callable[[Path], Table]] = {
     DELIMITED: open_delimited,
@@ -87,17 +89,17 @@ def read_log(
 
 
 def _with_suggestion(error: LogError, table: Table) -> LogError:
-    """Add the mapping that the names of the columns suggest, to be confirmed."""
+    """Add the mapping that names and values of the columns suggest, to be confirmed."""
     mappings = suggest_mappings(table)
     if not mappings:
-        return error
+        return explained(error, table)
     evidence = error.evidence | {"suggested_mappings": mappings}
     several = ", one for each arm" if len(mappings) > 1 else ""
     written = " or ".join(json.dumps(mapping, ensure_ascii=False) for mapping in mappings)
     return LogError(
         error.cause,
         evidence=evidence,
-        remedy=f"{error.remedy}; or check the mapping that the names suggest{several}: {written}",
+        remedy=f"{error.remedy}; or check the mapping that the columns suggest{several}: {written}",
     )
 
 
@@ -134,29 +136,17 @@ def read_table(table: Table, layout: Layout, *, name: str, sha256: str) -> Joint
     LogError
         If the samples cannot be used.
     """
+
+    def log_of(layout: Layout) -> JointLog:
+        return _log_of(name, lambda chosen: _source_of(table, chosen), layout, sha256)
+
     try:
-        log = _log_of(name, _rows_of(table, layout), layout, sha256)
+        log = log_of(layout)
     except LogError:
-        measured = _without_references(layout)
-        if measured == layout:
+        if not layout.default_references:
             raise
-        log = _log_of(name, _rows_of(table, measured), measured, sha256)
+        log = log_of(layout.without(layout.default_references))
     return replace(log, defects=(*_rearranged(table, log.samples), *log.defects))
-
-
-def _without_references(layout: Layout) -> Layout:
-    """Leave out the reference channels that have their default names."""
-    left = [bound for bound in layout.channels if _is_default_reference(bound)]
-    return replace(
-        layout,
-        channels=tuple(bound for bound in layout.channels if bound not in left),
-        ignored=(*layout.ignored, *(column for bound in left for column in bound.columns)),
-    )
-
-
-def _is_default_reference(bound: Binding) -> bool:
-    channel = CHANNELS[bound.name]
-    return channel.need == "reference" and all(name.startswith(channel.prefix) for name in bound.columns)
 
 
 def log_from_arrays(
@@ -204,8 +194,11 @@ def log_from_arrays(
             Binding(key, tuple(f"{CHANNELS[key].prefix}_{j}" for j in joints), *plain) for key in arrays
         ),
     )
-    rows = LogRows(clock, **arrays)
-    return _log_of(name, choose_rows(ArraySource(rows), [rows.time]), layout, "")
+
+    def source_of(chosen: Layout) -> LogSource:
+        return ArraySource(LogRows(clock, **{bound.name: arrays[bound.name] for bound in chosen.channels}))
+
+    return _log_of(name, source_of, layout, "")
 
 
 def _refuse_unknown(channels: Collection[str]) -> None:
@@ -230,16 +223,13 @@ def _check_shapes(clock: np.ndarray, arrays: dict[str, np.ndarray]) -> None:
         )
 
 
-def _rows_of(table: Table, layout: Layout) -> Chosen:
-    """Open the samples and choose those of the motion; of a table on disk the stamps are read alone first."""
-    clock = layout.time
+def _source_of(table: Table, layout: Layout) -> LogSource:
+    """Open the samples of all rows."""
     if isinstance(table, ParquetTable):
-        stamps = (clock.convert(block)[:, 0] for block in table.batches(clock.columns)) if clock else None
-        return choose_rows(ParquetSource(table, layout), stamps)
+        return ParquetSource(table, layout)
     blocks = list(table.batches(layout.columns)) or [np.empty((len(layout.columns), 0))]
     whole = blocks[0] if len(blocks) == 1 else np.hstack(blocks)
-    rows = layout.convert(whole, 0)
-    return choose_rows(ArraySource(rows), [rows.time] if clock else None)
+    return ArraySource(layout.convert(whole, 0))
 
 
 def _rearranged(table: Table, samples: int) -> tuple[Defect, ...]:
@@ -250,7 +240,16 @@ def _rearranged(table: Table, samples: int) -> tuple[Defect, ...]:
     return (Defect("rearranged", "file", None, samples, (), statement),)
 
 
-def _log_of(name: str, chosen: Chosen, layout: Layout, sha256: str) -> JointLog:
+def _log_of(name: str, source_of: Callable[[Layout], LogSource], layout: Layout, sha256: str) -> JointLog:
+    whole = source_of(layout)
+    found = survey(whole)
+    scarce = scarce_channels(found, layout)
+    left_out = tuple(scarce_defect(found, layout, channel) for channel in scarce)
+    if scarce:
+        layout = layout.without(scarce)
+        whole = source_of(layout)
+        found = survey(whole)
+    chosen = choose_rows(whole, layout, found)
     source = chosen.source
     seen = examine(source, layout, chosen.row_in_file)
     return JointLog(
@@ -260,7 +259,7 @@ def _log_of(name: str, chosen: Chosen, layout: Layout, sha256: str) -> JointLog:
         rate_hz=seen.rate_hz,
         duration=seen.duration,
         segments=seen.segments,
-        defects=(*chosen.done, *seen.defects),
+        defects=(*left_out, *chosen.done, *seen.defects),
         channels=tuple(channel.name for channel in layout.channels),
         ignored_columns=layout.ignored,
         sha256=sha256,

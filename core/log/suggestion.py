@@ -7,10 +7,22 @@ else sizes do. A suggestion is shown, never applied.
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from ..errors import LogError
 from .binding import Binding
 from .channels import CHANNELS, EFFORTS, REFERENCE_WORDS, TIME, UNITS
-from .column_families import arm_of, channel_of, name_words, named_families, numbered_families
+from .column_blocks import unnamed_channels
+from .column_families import (
+    along_arm,
+    arm_of,
+    channel_of,
+    name_words,
+    named_families,
+    numbered_families,
+    single_families,
+    tells_a_part,
+)
 from .formats.table import Table
 from .layout import Layout
 from .mapping import RATE
@@ -20,6 +32,7 @@ from .plausible_units import readings_by_column
 from .profiles import PROFILE, PROFILES, fill_in
 
 UNKNOWN = "?"
+MOTOR_SIDE = ("position", "velocity", "torque")
 IMPLAUSIBLE = "implausible_unit"
 
 
@@ -45,16 +58,51 @@ def suggest_mappings(table: Table) -> list[dict[str, object]]:
     profile = _profile(table.names)
     if profile is not None:
         return [{PROFILE: profile} | _own_clock(profile, table) | _open_units(profile, table)]
-    numbered = numbered_families(table.names)
+    unnamed = unnamed_channels(table)
+    whole = [unnamed] if unnamed else _named_channels(table.names)
+    return [_clock(channels, table) | _requests(channels, table) for channels in whole]
+
+
+def _named_channels(names: Sequence[str]) -> list[dict[str, list[str]]]:
+    """Give the columns of every channel, for each arm that the names tell of."""
+    numbered = numbered_families(names)
     arms = [_channels(own) for own in _by_arm(numbered)]
     whole = [channels for channels in arms if _is_whole(channels)]
-    if len(whole) < 2:
-        whole = [
-            found for found in map(_channels, (numbered, named_families(table.names))) if _is_whole(found)
-        ]
-        whole = whole[:1]
-    clock = _clock(table)
-    return [clock | _requests(channels, table) for channels in whole]
+    if len(whole) > 1:
+        return whole
+    by_part = {stem: along_arm(columns) for stem, columns in named_families(names).items()}
+    of_one = {stem: columns for stem, columns in numbered.items() if not tells_a_part(stem)}
+    found = map(_channels, (of_one, by_part, numbered, single_families(names)))
+    return [channels for channels in found if _is_whole(channels)][:1]
+
+
+def explained(error: LogError, table: Table) -> LogError:
+    """Say of a file that holds positions alone, or efforts alone, that the others are to be joined to it.
+
+    A clock of another name would be asked for first, and be of no use.
+    """
+    half = _half(table)
+    if half is None or error.evidence.get("looked_for") != [TIME]:
+        return error
+    there, absent = half
+    return LogError(
+        f"the file holds {there}, and no {absent}",
+        evidence=error.evidence,
+        remedy=f"join it with the file of the {absent} of the same run: veritorque logs join THIS OTHER "
+        "-o run.parquet; where they are in this file, map their columns",
+    )
+
+
+def _half(table: Table) -> tuple[str, str] | None:
+    """Tell what a file holds and what it lacks; None where neither or both are told by its names."""
+    families = numbered_families(table.names) | single_families(table.names)
+    told = {channel for stem in families if (channel := channel_of(stem, ())) is not None}
+    recorded = (fill_in({PROFILE: name}, table.names) for name in PROFILES if _is_ordered(name, table.names))
+    told |= {channel for filled in recorded if isinstance(filled, dict) for channel in filled}
+    efforts = {*EFFORTS, "torque_ref"} & told
+    if bool(efforts) == ("position" in told):
+        return None
+    return ("positions", "torque or current") if not efforts else ("torque or current", "positions")
 
 
 def _by_arm(families: Mapping[str, list[str]]) -> list[dict[str, list[str]]]:
@@ -69,12 +117,17 @@ def _requests(channels: Mapping[str, list[str]], table: Table) -> dict[str, obje
     return {
         name: {"columns": channels[name]} | _declared(name, table, channels[name][0])
         for name in CHANNELS
-        if name in channels
+        if name in channels and name != TIME
     }
 
 
 def _declared(channel: str, table: Table, column: str) -> dict[str, object]:
-    """Give a column's unit, and leave open what one of it is where the mapping has to say so."""
+    """Give a column's unit, and leave open what one of it is where the mapping has to say so.
+
+    What is named after the motor is on its side of a gear, whose ratio only the user knows.
+    """
+    if channel in MOTOR_SIDE and "motor" in name_words(column):
+        return {"unit": _said_unit(channel, table, column) or next(iter(UNITS[channel])), "scale": UNKNOWN}
     declared: dict[str, object] = {"unit": _unit(channel, table, column)}
     unit = UNITS[channel].get(str(declared["unit"]))
     return declared | ({"scale": UNKNOWN} if unit is not None and unit.needs_scale else {})
@@ -91,12 +144,26 @@ def _open_units(profile: str, table: Table) -> dict[str, object]:
     }
 
 
-def _clock(table: Table) -> dict[str, object]:
+def _clock(channels: Mapping[str, Sequence[str]], table: Table) -> dict[str, object]:
+    """Give the clock by its name, else the first column that only grows, else leave the rate open."""
     words = set(CHANNELS[TIME].words)
-    stamps = [name for name in table.names if name_words(name) & words and channel_of(name, ()) is None]
-    if not stamps:
-        return {RATE: UNKNOWN}
-    return {TIME: {"column": stamps[0], "unit": _unit(TIME, table, stamps[0])}}
+    told = (name for name in table.names if name_words(name) & words and channel_of(name, ()) is None)
+    stamps = next(iter(channels.get(TIME, ())), None) or next(told, None) or _growing(channels, table)
+    return (
+        {RATE: UNKNOWN} if stamps is None else {TIME: {"column": stamps, "unit": _unit(TIME, table, stamps)}}
+    )
+
+
+def _growing(channels: Mapping[str, Sequence[str]], table: Table) -> str | None:
+    """Find a column that grows from row to row as a clock does, and does not only count the rows."""
+    used = {column for columns in channels.values() for column in columns}
+    for name in table.names:
+        if name in used or name in table.texts or not readings_by_column(TIME, [name], table):
+            continue
+        steps = np.diff(next(iter(table.batches([name])))[0])
+        if np.all(steps > 0.0) and np.any(steps != 1.0):
+            return name
+    return None
 
 
 def suggest_units(table: Table, layout: Layout, defects: Sequence[Defect]) -> dict[str, object] | None:
@@ -143,13 +210,21 @@ def _is_whole(channels: Mapping[str, list[str]]) -> bool:
 def _profile(names: Sequence[str]) -> str | None:
     """Find a recorder whose names these are; the units that it leaves open are asked for when it is tried."""
     for name in PROFILES:
-        try:
-            filled = fill_in({PROFILE: name}, names)
-        except LogError:  # the order of the joints is not known, and would have to be given as well
+        if not _is_ordered(name, names):
             continue
+        filled = fill_in({PROFILE: name}, names)
         if isinstance(filled, dict) and "position" in filled and not filled.keys().isdisjoint(EFFORTS):
             return name
     return None
+
+
+def _is_ordered(profile: str, names: Sequence[str]) -> bool:
+    """Tell whether the order of a profile's joints is known, which would have to be given as well."""
+    try:
+        fill_in({PROFILE: profile}, names)
+    except LogError:
+        return False
+    return True
 
 
 def _own_clock(profile: str, table: Table) -> dict[str, object]:
@@ -163,8 +238,12 @@ def _own_clock(profile: str, table: Table) -> dict[str, object]:
 
 
 def _unit(channel: str, table: Table, column: str) -> str:
-    said = unit_called(channel, table.units.get(column, "")) or unit_in_name(channel, column)
+    said = _said_unit(channel, table, column)
     if said is not None:
         return said
     plausible = readings_by_column(channel, [column], table)
     return plausible[column][0].split(":")[0] if plausible else UNKNOWN
+
+
+def _said_unit(channel: str, table: Table, column: str) -> str | None:
+    return unit_called(channel, table.units.get(column, "")) or unit_in_name(channel, column)

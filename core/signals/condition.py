@@ -127,7 +127,9 @@ def check_currents(robot: RobotModel, channels: tuple[str, ...], name: str) -> N
         raise LogError(
             "the log holds currents, and the robot does not say what torque a current gives",
             evidence={"joints": undeclared, "log": name},
-            remedy="declare torque_constant (N m/A) and gear_ratio of these joints, or log joint torque",
+            remedy="declare torque_constant (N m/A) and gear_ratio of these joints in the robot's table; or "
+            'map the currents as torque, with the N m/A of each joint: "current": null, "torque": '
+            '{"columns": [...], "unit": "N m", "scale": [...]}',
         )
 
 

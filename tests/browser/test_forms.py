@@ -222,10 +222,11 @@ def test_currents_are_offered_as_such_with_what_makes_torques_of_them(look, serv
     assert page.get_by_role("button", name="Start").is_disabled()
 
 
-def test_a_value_that_is_missing_is_named_with_column_and_row_before_any_mapping(look, service, tmp_path):
+def test_values_that_are_missing_are_named_with_column_and_row_before_any_mapping(look, service, tmp_path):
     rows = csv_log(seconds=4.0).split(b"\n")
-    cells = rows[8].split(b",")
-    rows[8] = b",".join([cells[0], b"nan", *cells[2:]])
+    for number in range(8, 8 + 2 * len(rows) // 3):
+        cells = rows[number].split(b",")
+        rows[number] = b",".join([cells[0], b"nan", *cells[2:]])
     path = tmp_path / "missing.csv"
     path.write_bytes(b"\n".join(rows))
     seen = look(service)
@@ -233,12 +234,42 @@ def test_a_value_that_is_missing_is_named_with_column_and_row_before_any_mapping
     page = seen.open("/new")
     page.set_input_files("#log input[type=file]", path)
     alert = page.get_by_role("alert")
-    alert.get_by_text("The column 'q_1' holds 1 value missing").wait_for()
+    alert.get_by_text("The column 'q_1' holds").wait_for()
     alert.get_by_text("the first in row 8").wait_for()
     form = page.get_by_role("heading", name="Map columns")
     assert not form.is_visible()
     page.get_by_text("Change the column mapping").click()
     form.wait_for()
+
+
+def test_channels_of_a_motor_are_read_with_the_gear_that_is_entered_for_each_joint(look, service, tmp_path):
+    gears = np.array([50.0, 80.0])
+    time, position, torque = columns(seconds=4.0)
+    table = np.column_stack([time, position * gears, torque / gears])
+    names = "t,motor_pos_1,motor_pos_2,motor_torque_1,motor_torque_2"
+    path = tmp_path / "motor.csv"
+    np.savetxt(path, table, delimiter=",", header=names, comments="")
+    seen = look(service)
+    seen.statuses.add(422)
+    page = seen.open("/new")
+    page.set_input_files("#log input[type=file]", path)
+    page.get_by_role("alert").get_by_text("Check the mapping that is suggested below").wait_for()
+    page.get_by_text("The factors are in no log").wait_for()
+    for channel, unit in {"time": "s", "position": "rad", "torque": "N m"}.items():
+        page.get_by_label(f"Unit of {channel}").select_option(unit)
+    apply = page.get_by_role("button", name="Apply mapping")
+    page.get_by_label("Factor on position").fill("1/50")
+    apply.click()
+    page.get_by_text("Enter the factor of torque").wait_for()
+    page.get_by_label("Factor on position").fill("1/50, 1/80")
+    page.get_by_label("Factor on torque").fill("50 80")
+    assert seen.barriers() == []
+    apply.click()
+    page.get_by_role("article", name="Log motor.csv").wait_for()
+    page.locator(".plot").nth(3).wait_for()
+    summary = page.get_by_role("img", name="Plot of Torque of joint 2").get_attribute("aria-label")
+    low, high = torque[:, 1].min(), torque[:, 1].max()
+    assert f"from {low:.4g} to {high:.4g}".replace("-", MINUS) in summary
 
 
 def test_a_gap_is_listed_and_marked_where_it_is(look, service, holed_log):

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.app.planar_arm import csv_log, description
 from tests.browser.test_burden import LARGEST_PAGE
 
 HIDDEN_LOG = Path(__file__).parents[2] / "examples" / "yumi" / "hidden_log.csv"
@@ -286,3 +287,22 @@ def test_every_file_that_is_offered_is_there(look, service, studied):
     offered = [link.get_attribute("href") for link in page.locator("#export .files a").all()]
     assert len(offered) == len(set(offered)) >= 12
     assert {path: page.request.get(service + path).status for path in offered} == dict.fromkeys(offered, 200)
+
+
+def test_an_audit_is_read_by_all_and_fits_a_phone(look, service):
+    body = {"mass": 0.2, "center_of_mass": [0.2, 0.0, 0.0], "inertia_at_com": [0.01, 0, 0, 0.02, 0, 0.02]}
+    seen = look(service, width=390, height=844)
+    asking = seen.page.request
+
+    def made(path, data, kind="application/json"):
+        answer = asking.post(f"{service}{path}", data=data, headers={"Content-Type": kind}, timeout=120_000)
+        return answer.json()["id"]
+
+    robot = made("/v1/robots", description() | {"prior": [body, body]})
+    log = made("/v1/logs", csv_log(seconds=12.0, noise=0.05), "text/csv")
+    page = seen.open(f"/studies/{made('/v1/jobs', {'kind': 'audit', 'robot': robot, 'logs': [log]})}")
+    page.locator(".state.successful").wait_for()
+    page.get_by_text("corrected for the number of entries").first.wait_for()
+    assert page.get_by_role("button", name="Apply and start again").is_visible()
+    assert page.evaluate("document.documentElement.scrollWidth") == 390
+    assert seen.barriers() == []

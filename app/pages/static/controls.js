@@ -103,5 +103,7 @@ export function readNumber(text) {
   const turn = /^([-+]?)(\d*\.?\d*)\s*\*?\s*(?:pi|π)(?:\s*\/\s*(\d+\.?\d*))?$/i.exec(written);
   if (turn)
     return ((turn[1] === "-" ? -1 : 1) * (turn[2] === "" ? 1 : Number(turn[2])) * Math.PI) / Number(turn[3] ?? 1);
-  return written === "" ? NaN : Number(written);
+  const quotient = /^([-+]?\d*\.?\d+)\/(\d*\.?\d+)$/.exec(written);
+  const value = quotient ? Number(quotient[1]) / Number(quotient[2]) : Number(written);
+  return written === "" || !Number.isFinite(value) ? NaN : value;
 }

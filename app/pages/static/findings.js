@@ -15,15 +15,22 @@ export function showFindings(container, { job, document, report }) {
 
 const CONTROLLERS = { ur: "Universal Robots, URScript", abb: "ABB, RAPID", kuka: "KUKA, KRL", staubli: "Staubli, VAL 3" };
 
+/** Write the largest of some standard deviations behind a number. */
+function within(deviations) {
+  return deviations.length && deviations.every(Number.isFinite) ? ` ± ${number(Math.max(...deviations), 2)}` : "";
+}
+
 // The body of a payload as controllers take it, in the frame of the flange where one is named.
-function loads({ payload }) {
+function loads({ payload, parameters }) {
   if (!payload) return null;
+  const deviations = (begin) => parameters.filter(({ name }) => name.startsWith(begin)).map((one) => one.standard_deviation);
   const flange = payload.frames.find(({ frame }) => frame === payload.flange);
   const shown = flange ?? payload.frames[0];
   const centre = shown.center_of_mass.map((value) => number(value, 3)).join(", ");
   return element("section", { class: "card", "aria-label": "Payload for the controller" },
     element("h3", {}, "Payload for the controller"),
-    element("p", {}, `${number(payload.mass)} kg, mass centre at ${centre} m in the frame ${shown.frame}.`,
+    element("p", {}, `${number(payload.mass)}${within(deviations("mass"))} kg, mass centre at ${centre}${within(deviations("com_"))} m in the frame ${shown.frame}.`,
+      payload.removed ? " The body was removed: subtract it from what the controller has." : null,
       payload.inertia_known ? null : " The motion does not determine its inertia: zero is written."),
     flange ? null : element("p", { class: "hint" }, "No frame of this link is named tool0 or flange: name it in frames of the description."),
     Object.entries(shown.paste).map(([name, text]) => element("details", {}, element("summary", {}, CONTROLLERS[name] ?? name),

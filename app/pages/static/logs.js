@@ -1,5 +1,5 @@
 // Choose logs: upload files or take uploaded ones, and show rate, columns, defects and channels of each.
-import { get, upload } from "./api.js";
+import { get, ProblemError, upload } from "./api.js";
 import { showChannels } from "./channels.js";
 import { columnsOf } from "./columns.js";
 import { dropZone, field, menu } from "./controls.js";
@@ -90,7 +90,7 @@ export function chooseLogs(container, { wanted = [], chosen }) {
       forget(replaced);
       keep(log, file);
     } catch (error) {
-      showError(said, error);
+      showError(said, withButtonFor(error));
       if (form !== null) {
         if (!form.isConnected) said.append(form);
       } else if (error?.problem?.type === "urn:veritorque:problem:log") await offerMapping(file, mappingPlace(error.problem), error.problem);
@@ -194,11 +194,23 @@ function facts(log) {
   );
 }
 
+/** Name the button below a refusal in place of the mapping that it applies, which the remedy writes out. */
+function withButtonFor(error) {
+  const { problem } = error ?? {};
+  if (!problem?.evidence?.suggested_mappings) return error;
+  const { suggested_mappings, ...evidence } = problem.evidence;
+  const remedy = "check the mapping that is suggested below and apply it, or map the columns yourself";
+  return new ProblemError({ ...problem, remedy, evidence });
+}
+
+/** Defects that the user decides on, before anything is computed. */
+const NEED_A_LOOK = new Set(["implausible_unit", "velocity_mismatch", "missing_values"]);
+
 function defects(log) {
   if (!log.defects.length) return element("p", { class: "sound" }, "No defects found.");
   return element(
     "details",
-    { class: "defects", open: log.defects.length <= 4 },
+    { class: "defects", open: log.defects.length <= 4 || log.defects.some((defect) => NEED_A_LOOK.has(defect.kind)) },
     element("summary", {}, `${plural("defect", log.defects.length)} found, marked in the plots`),
     element(
       "ul",

@@ -5,6 +5,8 @@ import { field, figure, menu, readNumber } from "./controls.js";
 import { element, fill } from "./dom.js";
 
 const EACH = "each";
+const NEEDS_SCALE = new Set(["counts", "%"]);
+const OF_A_MOTOR = "one number, or one per joint with blanks between; of a motor's angle or speed 1/(gear ratio), of its torque the gear ratio";
 const PROFILES = {
   "ur-rtde": "Universal Robots, RTDE",
   franka: "Franka, libfranka",
@@ -18,6 +20,13 @@ const DRIVE_GAIN =
 /** Tell whether a suggested mapping leaves nothing open. */
 function isWhole(mapping) {
   return !JSON.stringify(mapping).includes('"?"');
+}
+
+/** Give the number of one joint out of one for all, or one for each with blanks between. */
+function nth(text, index, count) {
+  const parts = text.trim().split(/[;\s]+/);
+  if (parts.length === 1) return parts[0];
+  return parts.length === count ? parts[index].replace(/,$/, "") : "";
 }
 
 /** Give each column the channel that a mapping has it for. */
@@ -37,10 +46,16 @@ function suggestion(mapping, finished) {
     request?.columns?.join(", ") ?? request?.column ?? String(request),
     [request?.unit ?? ""].flat().join(", "),
   ]);
+  const confirm = element(
+    "button",
+    { type: "button", class: "primary", on: { click: () => finished(mapping) } },
+    "Apply suggested mapping",
+  );
+  const open = element("p", { class: "hint" }, "The factors are in no log: choose the units and enter the factors below.");
   return element(
     "div",
     { class: "suggestion", role: "group", "aria-label": "Suggested mapping" },
-    element("p", {}, "The names and sizes of the columns suggest:"),
+    element("p", {}, "The names and sizes of the columns suggest, in this order of the joints:"),
     element(
       "table",
       {},
@@ -57,15 +72,7 @@ function suggestion(mapping, finished) {
         ),
       ),
     ),
-    element(
-      "div",
-      { class: "actions" },
-      element(
-        "button",
-        { type: "button", class: "primary", on: { click: () => finished(mapping) } },
-        "Apply suggested mapping",
-      ),
-    ),
+    element("div", { class: "actions" }, isWhole(mapping) ? confirm : open),
   );
 }
 
@@ -93,7 +100,7 @@ export function mappingForm(container, { columns, readings, suggested = [], fini
       "section",
       { class: "mapping", "aria-label": "Mapping of columns" },
       element("h3", {}, "Map columns"),
-      suggested.filter(isWhole).map((mapping) => suggestion(mapping, finished)),
+      suggested.map((mapping) => suggestion(mapping, finished)),
       field(
         "Recorder profile",
         menu([["", "none: map the columns below"], ...Object.entries(PROFILES)], "", (profile) => {
@@ -213,18 +220,30 @@ export function mappingForm(container, { columns, readings, suggested = [], fini
       field(`Unit of ${channel}`, list, hints.length ? `plausible: ${hints.slice(0, 2).join("; ")}` : null),
       channel === "current" ? element("p", { class: "hint" }, DRIVE_GAIN) : null,
     ];
-    if (units[channel] === "counts") {
-      made.push(
-        field(
-          `One count of ${channel}`,
-          figure(scales[channel], (text) => {
-            scales[channel] = text;
-          }),
-          oneCount(channel),
-        ),
-      );
-    }
+    if (units[channel] === "counts") made.push(scaleField(channel, `One count of ${channel}`, oneCount(channel)));
+    else if (units[channel] === "%") made.push(scaleField(channel, `One % of ${channel}`, oneCount(channel)));
+    else if (leftOpen(channel)) made.push(scaleField(channel, `Factor on ${channel}`, OF_A_MOTOR));
     return made;
+  }
+
+  function scaleField(channel, label, hint) {
+    return field(
+      label,
+      figure(scales[channel], (text) => {
+        scales[channel] = text;
+      }),
+      hint,
+    );
+  }
+
+  /** Tell whether the suggestion leaves a channel's factor to the user: what is named after a motor lies before a gear. */
+  function leftOpen(channel) {
+    return suggested.some((mapping) => mapping[channel]?.scale === "?") && units[channel] !== EACH;
+  }
+
+  /** Tell whether a column of a channel has to be multiplied by what the user enters. */
+  function isScaled(channel, unit) {
+    return NEEDS_SCALE.has(unit) || leftOpen(channel);
   }
 
   /** Tell whether a column has a unit of its own, because the joints of its channel differ. */
@@ -244,13 +263,16 @@ export function mappingForm(container, { columns, readings, suggested = [], fini
       },
       { "aria-label": `Unit of ${name}`, name: `unit-${index}` },
     );
-    if (unitsOf[index] !== "counts") return list;
+    if (!NEEDS_SCALE.has(unitsOf[index])) return list;
     const count = figure(
       scalesOf[index],
       (text) => {
         scalesOf[index] = text;
       },
-      { "aria-label": `One count of ${name}, ${oneCount(roles[index])}`, placeholder: oneCount(roles[index]) },
+      {
+        "aria-label": `One ${unitsOf[index] === "%" ? "%" : "count"} of ${name}, ${oneCount(roles[index])}`,
+        placeholder: oneCount(roles[index]),
+      },
     );
     return [list, count];
   }
@@ -304,14 +326,17 @@ export function mappingForm(container, { columns, readings, suggested = [], fini
         columns: own.map((one) => one.name),
         unit: each ? own.map((one) => one.unit) : units[channel],
       };
-      if (own.some((one) => one.unit === "counts")) {
-        const counts = own.map((one) => (one.unit === "counts" ? readNumber(one.count ?? "") : 1));
-        const unclear = own.find((_, index) => !Number.isFinite(counts[index]));
+      if (own.some((one) => isScaled(channel, one.unit))) {
+        const factors = own.map((one, index) =>
+          isScaled(channel, one.unit) ? readNumber(each ? (one.count ?? "") : nth(one.count ?? "", index, own.length)) : 1,
+        );
+        const unclear = own.find((_, index) => !Number.isFinite(factors[index]));
         if (unclear) {
-          wrong.textContent = `Enter the value of one count of ${each ? unclear.name : channel}.`;
+          const what = unclear.unit === "counts" ? "value of one count" : unclear.unit === "%" ? "value of one %" : "factor";
+          wrong.textContent = `Enter the ${what} of ${each ? unclear.name : channel}.`;
           return;
         }
-        mapping[channel].scale = each ? counts : counts[0];
+        mapping[channel].scale = new Set(factors).size > 1 || each ? factors : factors[0];
       }
     }
     if (!mapping.time) {

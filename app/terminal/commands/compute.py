@@ -30,7 +30,7 @@ from ..output.exit_codes import Exit
 from ..output.streams import result_console
 from ..study import Destination, run
 
-OutOption = Annotated[Path | None, typer.Option(help="Save the result document here.")]
+OutOption = Annotated[Path | None, typer.Option("--out", "-o", help="Save the result document here.")]
 ReportOption = Annotated[Path | None, typer.Option(help="Save the report, one HTML file, here.")]
 
 

@@ -38,7 +38,8 @@ def export(
     name: Annotated[str, typer.Argument(metavar="FORMAT", help="One of the formats below.")],
     *,
     out: Annotated[
-        Path | None, typer.Option(help="Output file, - for the terminal; default: a file of this name.")
+        Path | None,
+        typer.Option("--out", "-o", help="Output file, - for the terminal; default: a file of this name."),
     ] = None,
     url: UrlOption = "",
     key: KeyOption = "",

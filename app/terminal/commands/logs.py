@@ -28,6 +28,11 @@ Examples:
   veritorque logs check examples/yumi/log.csv --fail-on-defects --json
 """
 
+UNKNOWN = '"?"'
+OPEN = (
+    ', and replace "?" (the scale of a motor\'s angle or speed is 1 / gear ratio, that of its torque the '
+    "gear ratio)"
+)
 JOIN_EPILOG = """\b
 Example:
   veritorque logs join positions.csv torques.csv -o run.parquet
@@ -95,11 +100,10 @@ def _print_suggestion(path: Path, seen: "LogCheck") -> None:
     why = "suggested by the ranges; check the units against the recorder"
     if seen.refusal is not None:
         complain(seen.refusal.cause, _of(path, seen.refusal), seen.refusal.remedy)
-        why = "suggested by the column names; check the units"
+        why = "suggested by the columns; check the units and the order of the joints"
     if seen.suggestion is not None:
         written = encoder.dumps(seen.suggestion)
-        unknown = ', and replace "?"' if '"?"' in written else ""
-        note(f"  {why}{unknown}:")
+        note(f"  {why}{OPEN if UNKNOWN in written else ''}:")
         note(f"  --mapping '{written}'")
     for other in seen.other_arms:
         note("  for another arm in the same file, as a log of its own:")

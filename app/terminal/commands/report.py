@@ -22,7 +22,7 @@ Examples:
 def report(
     result: Annotated[str, typer.Argument(metavar="RESULT", help=RESULT_HELP)],
     *,
-    out: Annotated[Path, typer.Option(help="Output file.")] = Path("report.html"),
+    out: Annotated[Path, typer.Option("--out", "-o", help="Output file.")] = Path("report.html"),
     url: UrlOption = "",
     key: KeyOption = "",
 ) -> None:

@@ -1,4 +1,4 @@
-"""Test whether one channel comes in another unit than all others."""
+"""Test whether one channel, or all positions, come in another unit than declared."""
 
 from collections.abc import Iterator
 
@@ -13,18 +13,31 @@ _POSITION_UNITS = {"deg": np.pi / 180.0, "rad though deg is declared": 180.0 / n
 
 
 class Unit(Conflict):
-    """Read the torque or position of one joint in another unit."""
+    """Read the torque or position of one joint, or the positions of all, in another unit."""
 
     name = "unit"
     title = "Unit of a channel"
 
     def hypotheses(self, setup: Setup, _trials: Trials) -> Iterator[Hypothesis]:
-        """Try the usual units, channel by channel."""
+        """Try the usual units, of all positions and channel by channel.
+
+        A common factor on all torques is another body's, and none that a log could show.
+        """
         position, torque = setup.assignment.position, setup.assignment.torque
+        turning = setup.revolute()
+        for unit, factor in _POSITION_UNITS.items() if len(turning) > 1 else ():
+            yield Hypothesis(
+                self.name,
+                tuple(joint + 1 for joint in turning),
+                "position",
+                setup.with_position(position.scaled(factor, *turning)),
+                f"the positions of all joints are in {unit}",
+                f"declare all positions in {unit}",
+            )
         for joint in range(setup.joints):
             for unit, factor in _TORQUE_UNITS.items():
                 yield self._of(joint, "torque", unit, setup.with_torque(torque.scaled(factor, joint)))
-        for joint in setup.revolute():
+        for joint in turning:
             for unit, factor in _POSITION_UNITS.items():
                 yield self._of(joint, "position", unit, setup.with_position(position.scaled(factor, joint)))
 

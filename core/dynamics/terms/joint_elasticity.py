@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
+from scipy.linalg import LinAlgError
 
 from ...arrays import JointSeries, Samples
 from ...numerics.oscillator import swing
@@ -24,6 +25,8 @@ from .effect import AllJointsTerm, rates, step_of
 
 LEAST_INERTIA = 0.05
 """Share of the mean moved inertia below which none is taken: a fit may give a posture one of any sign."""
+MOST_SWING = 1e6
+"""Times what a link moves that follows its pull at once; set by hand, far above any resonance."""
 LEAST_STIFFNESS = 0.2
 """Share of the spring's stiffness that the load's slope by position leaves of it at least."""
 
@@ -60,8 +63,24 @@ class Elasticity(AllJointsTerm):
         springs = angular**2 / link.inertia
         squares = np.maximum(springs + link.slope, LEAST_STIFFNESS * springs)
         decays = self.damping_ratio * angular / link.inertia + link.decay
-        lag = -(angular**2) * swing(link.pull, step_of(state), squares, decays)[:, None]
+        lag = -(angular**2) * _followed(link.pull, step_of(state), squares, decays)[:, None]
         return [gear.change(state, MotionState(lag, *rates(lag, state)))]
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def _followed(pull: Samples, step: float, squares: Samples, decays: Samples) -> Samples:
+    """Give how the link swings, or, where that grows without bound, how it would follow its pull at once.
+
+    In a wrong description, or with positions in a wrong unit, the load drives its own swing until no number
+    holds it.
+    """
+    at_once = pull / squares
+    try:
+        swinging = swing(pull, step, squares, decays)
+    except LinAlgError:
+        return np.asarray(at_once)
+    is_bounded = np.max(np.abs(swinging)) <= MOST_SWING * np.max(np.abs(at_once))  # never where one is NaN
+    return swinging if is_bounded else np.asarray(at_once)
 
 
 @dataclass(frozen=True, eq=False)

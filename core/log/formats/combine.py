@@ -74,20 +74,26 @@ def _numbers(table: Table) -> Iterator[tuple[str, np.ndarray | None]]:
 
 
 def _lists(name: str, table: Table) -> Matrix | None:
-    """Read a column of lists as rows; None where it holds other text."""
+    """Read a column of lists as rows; None where it holds other text.
+
+    A list that is missing, or of another length than the first, holds NaN.
+    """
     words = table.words(name)
     if not words or not _LIST.fullmatch(words[0] or ""):
         return None
-    cells = [_BETWEEN.split(word.strip(" []()")) for word in words]
+    cells = [_BETWEEN.split(word.strip(" []()")) if word else [] for word in words]
     width = len(cells[0])
     check_values(width * len(cells))
-    if any(len(row) != width for row in cells):
+    whole = [row for row, values in enumerate(cells) if len(values) == width]
+    if 2 * len(whole) < sum(map(bool, words)):
         raise LogError(
             f"the lists of the column {name!r} differ in length",
-            evidence={"column": name, "first": words[0][:80]},
+            evidence={"column": name, "first": words[0][:80], "others": len(cells) - len(whole)},
             remedy="give every row a number for every joint",
         )
+    rows = np.full((len(cells), width), np.nan)
     try:
-        return np.array(cells, dtype=np.float64)
+        rows[whole] = np.array([cells[row] for row in whole], dtype=np.float64)
     except ValueError:
         return None
+    return rows

@@ -19,7 +19,7 @@ from ...errors import LogError
 from .arrow import numbers
 from .stamps import Clock
 from .table import BY_NUMBER, MAX_COLUMNS, check_columns, check_rows, check_values, not_numeric, reading
-from .text_bytes import check_text, cut_line, opening_lines
+from .text_bytes import UTF_8, WESTERN, check_text, cut_line, encoding_of, opening_lines
 from .text_header import (
     BLANKS,
     DELIMITERS,
@@ -34,6 +34,24 @@ from .tidy_lines import TidyLines
 
 FORM = "CSV"
 BLOCK_BYTES = 1 << 22
+ABSENT = (
+    "None",
+    "none",
+    "NONE",
+    "Null",
+    "NaT",
+    "NAN",
+    "-NAN",
+    "<NA>",
+    "-",
+    "--",
+    "---",
+    "?",
+    "-nan(ind)",
+    "nan(ind)",
+)
+"""What recorders write for a missing value, beside the usual words."""
+WIDEST_BLANK = 32
 _BAD_ROW = re.compile(
     r"Row #(?P<line>\d+): Expected (?P<columns>\d+) columns, got (?P<cells>\d+): (?P<text>.*)", re.DOTALL
 )
@@ -60,6 +78,7 @@ class DelimitedTable:
     """The last line, where the recorder was stopped in the middle of it."""
     repeated: bytes = b""
     """The header, where it occurs again between the rows."""
+    encoding: str = UTF_8
 
     def batches(self, names: Sequence[str]) -> Iterator[Series]:
         """Read the named columns in blocks of a few megabytes."""
@@ -90,10 +109,17 @@ class DelimitedTable:
 
     def _batches(self, kinds: Mapping[str, pa.DataType]) -> Iterator[pa.RecordBatch]:
         convert = arrow_csv.ConvertOptions(
-            include_columns=list(kinds), column_types=dict(kinds), decimal_point=self.decimal
+            include_columns=list(kinds),
+            column_types=dict(kinds),
+            decimal_point=self.decimal,
+            null_values=_absent(),
         )
         read = arrow_csv.ReadOptions(
-            column_names=list(self.names), skip_rows=self.skip, block_size=BLOCK_BYTES, use_threads=False
+            column_names=list(self.names),
+            skip_rows=self.skip,
+            block_size=BLOCK_BYTES,
+            use_threads=False,
+            encoding=self.encoding,
         )
         delimiter = "\t" if self.delimiter == BLANKS else self.delimiter
         parse = arrow_csv.ParseOptions(delimiter=delimiter, invalid_row_handler=_RowJudge(self.cut))
@@ -117,6 +143,13 @@ class DelimitedTable:
             if (row := _BAD_ROW.search(str(error))) is not None:
                 raise _row_length_error(row, self.delimiter) from error
             raise
+
+
+def _absent() -> list[str]:
+    """List what stands for a missing value, also behind a blank."""
+    words = [*arrow_csv.ConvertOptions().null_values, *ABSENT]
+    blanks = [" " * width for width in range(2, WIDEST_BLANK + 1)]
+    return [*words, *(f" {word}" for word in words), *blanks]
 
 
 class _RowJudge:
@@ -144,7 +177,8 @@ def open_delimited(path: Path) -> DelimitedTable:
     LogError
         If there is no table, or the text is not UTF-8, or the columns break the limits.
     """
-    lines = opening_lines(path)
+    encoding = encoding_of(path)
+    lines = opening_lines(path, encoding)
     found = find_header(lines) or _first_line(lines)
     check_columns([f"column_{index}" for index in range(found.width)])
     names = _names(found)
@@ -156,7 +190,7 @@ def open_delimited(path: Path) -> DelimitedTable:
             remedy="write names without blanks, or separate the columns by commas, semicolons or tabs",
         )
     row = found.first_row
-    repeated = check_text(path, lines[found.header_at] if found.cells else "")
+    repeated = check_text(path, lines[found.header_at] if found.cells else "", encoding)
     repeated -= found.header_at > 0
     cells = dict(zip(names, split_cells(row, found.delimiter), strict=False))
     stamps = tuple(name for name, cell in cells.items() if STAMP.fullmatch(cell))
@@ -175,9 +209,13 @@ def open_delimited(path: Path) -> DelimitedTable:
             for name, cell in zip(names, found.cells, strict=False)
             if cell in found.units
         },
-        notes=tuple(_notes(found, stamps, cut=bool(cut), repeated=repeated)),
+        notes=(
+            *(["the text is not UTF-8, and read as Windows-1252"] if encoding == WESTERN else []),
+            *_notes(found, stamps, cut=bool(cut), repeated=repeated),
+        ),
         cut=cut,
-        repeated=lines[found.header_at].strip().encode() if repeated else b"",
+        repeated=lines[found.header_at].strip().encode(encoding) if repeated else b"",
+        encoding=encoding,
     )
 
 

@@ -32,6 +32,9 @@ VALUE_WORDS = frozenset(("value", "values", "val", "data"))
 FEWEST_REPEATS = 0.5
 """At least this share of the stamps repeat the row before in a table of two joints or more."""
 MOST_KEYS = 64
+MOST_SHARED = 0.5
+"""Of the instants more than this share have a row of every joint where single rows are missing; fewer have
+where each joint was sampled at its own."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,11 +62,13 @@ def widen(table: Table) -> Table:
     if found is None:
         return table
     block = np.hstack(list(table.batches((found.stamp, *found.values))))
-    stamps = _shared_stamps(found, block[0])
+    stamps, places = _shared_stamps(found, block[0])
     columns: dict[str, np.ndarray | None] = {found.stamp: stamps}
     for name, values in zip(found.values, block[1:], strict=True):
-        for key, rows in zip(found.keys, found.rows, strict=True):
-            columns[_name(found, name, key)] = values[rows]
+        for key, rows, at in zip(found.keys, found.rows, places, strict=True):
+            column = np.full(len(stamps), np.nan)
+            column[at] = values[rows]
+            columns[_name(found, name, key)] = column
     check_columns(list(columns))
     check_values(len(columns) * len(stamps))
     note = (
@@ -107,11 +112,16 @@ def _numbers(table: Table, key: str) -> list[str]:
     return [str(int(number)) for number in numbers] if whole else []
 
 
-def _shared_stamps(found: _Long, stamps: np.ndarray) -> np.ndarray:
+def _shared_stamps(found: _Long, stamps: np.ndarray) -> tuple[np.ndarray, list[np.ndarray | slice]]:
+    """Give all stamps, and where those of each joint stand among them: a joint may lack some rows."""
     own = [stamps[rows] for rows in found.rows]
     first = own[0]
     if all(len(others) == len(first) and np.array_equal(others, first) for others in own):
-        return np.asarray(first)
+        return np.asarray(first), [slice(None)] * len(own)
+    every, counts = np.unique(np.concatenate(own), return_counts=True)
+    in_order = all(bool(np.all(np.diff(one) > 0.0)) for one in own)
+    if in_order and np.count_nonzero(counts == len(own)) > MOST_SHARED * len(every):
+        return every, [np.searchsorted(every, one) for one in own]
     raise LogError(
         f"the rows of different {found.key}s have different stamps",
         evidence={

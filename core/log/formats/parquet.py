@@ -5,6 +5,7 @@ forward and only starts again when rows before its window are asked for.
 """
 
 from bisect import bisect_right
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,7 +14,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from ...arrays import Matrix, Samples, Series
+from ...arrays import Indices, Matrix, Samples, Series
 from ...errors import LogError
 from ..layout import Layout
 from ..model import LogRows
@@ -25,6 +26,7 @@ BUFFER_BYTES = 1 << 18
 MICROSECONDS = 1e6
 WHOLE = -1
 """Place of a column that holds no lists."""
+FIRST_LISTS = 256
 MAX_FOOTER_TEXT = 1 << 24
 MAX_FOOTER_ITEMS = 1 << 20
 
@@ -58,8 +60,9 @@ class ParquetTable:
             stream = file.iter_batches(
                 BATCH_ROWS, row_groups=groups, columns=list(dict(places)), use_threads=False
             )
+            widths = Counter(column for column, _ in self.lists.values())
             for batch in stream:
-                yield _decode(batch, places)
+                yield _decode(batch, places, widths)
 
     def words(self, name: str) -> list[str]:
         """Read a column of text."""
@@ -114,15 +117,15 @@ def _parts(file: pq.ParquetFile, column: pa.Field) -> list[tuple[str, pa.Field, 
 
 
 def _list_width(file: pq.ParquetFile, column: pa.Field) -> int:
-    """Count the numbers of a column's lists, by the first row; 0 where it has none."""
+    """Count the numbers of a column's lists, by the first that are there; 0 where there are none."""
     kind = column.type
     if pa.types.is_fixed_size_list(kind):
         return int(kind.list_size) if _is_number(kind.value_type) else 0
     if not (pa.types.is_list(kind) or pa.types.is_large_list(kind)) or not _is_number(kind.value_type):
         return 0
-    first = next(file.iter_batches(1, columns=[column.name], use_threads=False), None)
-    values = first.column(0)[0].as_py() if first is not None and first.num_rows else None
-    return len(values or ())
+    first = next(file.iter_batches(FIRST_LISTS, columns=[column.name], use_threads=False), None)
+    lengths = _lengths(first.column(0)) if first is not None else np.zeros(0, dtype=int)
+    return int(lengths[np.argmax(lengths > 0)]) if np.any(lengths > 0) else 0
 
 
 def _is_number(kind: pa.DataType) -> bool:
@@ -141,7 +144,7 @@ def _open(path: Path) -> pq.ParquetFile:
     )
 
 
-def _decode(batch: pa.RecordBatch, places: Sequence[tuple[str, int]]) -> Series:
+def _decode(batch: pa.RecordBatch, places: Sequence[tuple[str, int]], widths: Mapping[str, int]) -> Series:
     block = np.empty((len(places), batch.num_rows))
     lists: dict[str, Matrix] = {}
     for row, (name, place) in zip(block, places, strict=True):
@@ -149,7 +152,7 @@ def _decode(batch: pa.RecordBatch, places: Sequence[tuple[str, int]]) -> Series:
             row[:] = _scalars(batch.column(name))
             continue
         if name not in lists:
-            lists[name] = _matrix(name, batch.column(name))
+            lists[name] = _matrix(name, batch.column(name), widths[name])
         row[:] = lists[name][:, place]
     return block
 
@@ -163,19 +166,30 @@ def _scalars(column: pa.Array) -> Samples:
     )
 
 
-def _matrix(name: str, column: pa.Array) -> Matrix:
-    """Give lists of one length as rows."""
-    flat = numbers(column.flatten())
-    width = len(flat) // max(len(column), 1)
-    fixed = pa.types.is_fixed_size_list(column.type)
-    lengths = [] if fixed else column.value_lengths().unique().to_pylist()
-    if len(flat) != width * len(column) or lengths not in ([width], []):
+def _matrix(name: str, column: pa.Array, width: int) -> Matrix:
+    """Give lists as rows; one that is missing, or of another length than the first ones have, holds NaN."""
+    if pa.types.is_fixed_size_list(column.type) and not column.null_count:
+        return numbers(column.flatten()).reshape(len(column), width)
+    lengths = _lengths(column)
+    whole = np.flatnonzero(lengths == width)
+    given = np.count_nonzero(lengths > 0)
+    if 2 * len(whole) < given:
         raise LogError(
-            f"the lists of the column {name!r} differ in length, or some are missing",
-            evidence={"column": name, "rows": len(column), "numbers": len(flat)},
+            f"the lists of the column {name!r} differ in length",
+            evidence={"column": name, "first": width, "others": int(given - len(whole)), "rows": len(column)},
             remedy="give every row a number for every joint",
         )
-    return flat.reshape(len(column), width)
+    rows = np.full((len(column), width), np.nan)
+    rows[whole] = numbers(column.take(pa.array(whole)).flatten()).reshape(len(whole), width)
+    return rows
+
+
+def _lengths(column: pa.Array) -> Indices:
+    """Give the lengths of lists, -1 where one is missing."""
+    if pa.types.is_fixed_size_list(column.type):
+        present = np.array(column.is_valid().to_pylist(), dtype=bool)
+        return np.where(present, column.type.list_size, -1)
+    return np.asarray(np.from_dlpack(column.value_lengths().cast(pa.int64()).fill_null(-1)))
 
 
 class ParquetSource:

@@ -5,8 +5,8 @@ recording brings along would have to be compiled. Joints keep their names, becau
 says nothing about the robot. Sources: MCAP format specification; ROS bag format 2.0; sensor_msgs/JointState.
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +19,7 @@ MCAP_FORM, BAG_FORM = "MCAP", "ROS bag"
 JOINT_STATE = "sensor_msgs/msg/JointState"
 NANOSECONDS = 1_000_000_000
 FIELDS = ("position", "velocity", "effort")
+MOST_NOTES = 5
 
 
 @dataclass(frozen=True)
@@ -108,30 +109,60 @@ def _decode(messages: Any, *, ros1: bool) -> Iterator[State]:  # noqa: ANN401  #
         yield State(stamp or received, tuple(message.name), values)
 
 
+@dataclass(frozen=True, eq=False)
+class _Publisher:
+    """Gather the messages that name the same joints."""
+
+    joints: tuple[str, ...]
+    """In the order of the first message."""
+    stamps: list[int] = field(default_factory=list)
+    rows: list[np.ndarray] = field(default_factory=list)
+    """Fields by joints of every message; NaN where it lacks a field."""
+
+    def take(self, state: State) -> None:
+        """Take the next message."""
+        row = np.full((len(FIELDS), len(self.joints)), np.nan)
+        order = [state.joints.index(name) for name in self.joints]
+        for place, name in enumerate(FIELDS):
+            if len(state.values[name]) == len(self.joints):
+                row[place] = state.values[name][order]
+        self.stamps.append(state.stamp)
+        self.rows.append(row)
+
+    @property
+    def values(self) -> int:
+        """Count the numbers, one for the joint and instant."""
+        return len(self.joints) * len(self.rows)
+
+
 def _table(states: Iterator[State]) -> MemoryTable:
-    """Gather the messages into columns `position.<joint>`, `velocity.<joint>` and `effort.<joint>`."""
-    first = next(states, None)
-    if first is None:
-        raise LogError("the recording holds no messages", evidence={"messages": 0}, remedy="record a motion")
-    width = len(first.joints)
-    fields = [field for field in FIELDS if width and len(first.values[field]) == width]
-    names = [f"{field}.{joint}" for field in fields for joint in first.joints]
-    check_columns(names)
-    stamps, rows = [first.stamp], [_row(first, first, fields)]
+    """Gather the messages into columns `position.<joint>`, `velocity.<joint>` and `effort.<joint>`.
+
+    Others may publish messages of other joints on the topic: those who give most values are taken.
+    """
+    publishers: dict[frozenset[str], _Publisher] = {}
+    values = 0
     for state in states:
-        check_values(len(rows) * (len(names) + 1))
-        stamps.append(state.stamp)
-        rows.append(_row(state, first, fields))
-    block = np.array(rows).T
-    time = (np.array(stamps, dtype=np.int64) - stamps[0]) / NANOSECONDS
-    return MemoryTable({"time": time} | dict(zip(names, block, strict=True)))
+        values += 1 + len(FIELDS) * len(state.joints)
+        check_values(values)
+        publishers.setdefault(frozenset(state.joints), _Publisher(state.joints)).take(state)
+    if not publishers:
+        raise LogError("the recording holds no messages", evidence={"messages": 0}, remedy="record a motion")
+    chosen = max(publishers.values(), key=lambda publisher: publisher.values)
+    block = np.array(chosen.rows).transpose(1, 2, 0)
+    given = [place for place in range(len(FIELDS)) if not np.isnan(block[place]).all()]
+    names = [f"{FIELDS[place]}.{joint}" for place in given for joint in chosen.joints]
+    check_columns(names)
+    time = (np.array(chosen.stamps, dtype=np.int64) - chosen.stamps[0]) / NANOSECONDS
+    columns = dict(zip(names, block[given].reshape(len(names), -1), strict=True))
+    return MemoryTable({"time": time} | columns, notes=_passed_over(publishers.values(), chosen))
 
 
-def _row(state: State, first: State, fields: list[str]) -> np.ndarray:
-    if state.joints != first.joints or any(len(state.values[field]) != len(first.joints) for field in fields):
-        raise LogError(
-            "the messages of the recording do not all name the same joints",
-            evidence={"first": list(first.joints[:20]), "later": list(state.joints[:20])},
-            remedy="record one publisher of joint states, or export its messages as CSV or Parquet",
-        )
-    return np.concatenate([state.values[field] for field in fields])
+def _passed_over(publishers: Iterable[_Publisher], chosen: _Publisher) -> tuple[str, ...]:
+    """Say which messages are not of the joints that were taken."""
+    return tuple(
+        f"{len(other.rows)} message{'s' if len(other.rows) > 1 else ''} of "
+        f"{', '.join(other.joints[:8]) or 'no joint'} passed over"
+        for other in publishers
+        if other is not chosen
+    )[:MOST_NOTES]

@@ -16,22 +16,39 @@ LAST_BYTES = 1 << 16
 MAX_COMMENTS = 100_000
 
 
-def opening_lines(path: Path) -> list[str]:
+UTF_8, WESTERN = "utf-8", "cp1252"
+
+
+def encoding_of(path: Path) -> str:
+    """Tell UTF-8 from the code page of recorders on Windows, which write degrees and umlauts in one byte.
+
+    Numbers are the same in both; names and units differ.
+    """
+    with path.open("rb") as stream:
+        head = stream.read(HEAD_BYTES)
+    try:
+        codecs.getincrementaldecoder(UTF_8)().decode(head)
+    except UnicodeDecodeError:
+        return WESTERN
+    return UTF_8
+
+
+def opening_lines(path: Path, encoding: str) -> list[str]:
     """Read the first megabyte, and on where it holds nothing but comments and perhaps one line more."""
     with path.open("rb") as stream:
         head = stream.read(HEAD_BYTES)
-        lines = _lines(head)
+        lines = _lines(head, encoding)
         while len(_content(lines)) < 2 and len(lines) <= MAX_COMMENTS and len(head) < MOST_HEAD_BYTES:
             more = stream.read(len(head))
             if not more:
                 break
             head += more
-            lines = _lines(head)
+            lines = _lines(head, encoding)
     return lines
 
 
-def _lines(head: bytes) -> list[str]:
-    return re.split("\r\n|\r|\n", _decode(head))
+def _lines(head: bytes, encoding: str) -> list[str]:
+    return re.split("\r\n|\r|\n", _decode(head, encoding))
 
 
 def _content(lines: Sequence[str]) -> list[int]:
@@ -40,11 +57,11 @@ def _content(lines: Sequence[str]) -> list[int]:
     return list(islice(indices, 2))
 
 
-def check_text(path: Path, header: str) -> int:
+def check_text(path: Path, header: str, encoding: str) -> int:
     """Refuse NUL bytes, other encodings, lines of a megabyte and endless comments; count repeated headers."""
     begin = comments = repeated = 0
-    again = b"\n" + header.strip().encode()
-    decoder = codecs.getincrementaldecoder("utf-8")()
+    again = b"\n" + header.strip().encode(encoding)
+    decoder = codecs.getincrementaldecoder(encoding)()
     with path.open("rb") as stream:
         while piece := stream.read(HEAD_BYTES):
             try:
@@ -75,7 +92,7 @@ def check_text(path: Path, header: str) -> int:
     return repeated
 
 
-def _decode(head: bytes) -> str:
+def _decode(head: bytes, encoding: str) -> str:
     if b"\n" not in head and b"\r" not in head and len(head) == HEAD_BYTES:
         raise LogError(
             "the first line is longer than 1 MB, which no header of a log is",
@@ -83,7 +100,8 @@ def _decode(head: bytes) -> str:
             remedy="put the column names on the first line and keep the columns of the log only",
         )
     try:
-        return head[: head.rfind(b"\n") + 1 or None].decode("utf-8-sig")
+        text = head[: head.rfind(b"\n") + 1 or None]
+        return text.decode("utf-8-sig" if encoding == UTF_8 else encoding)
     except UnicodeDecodeError as error:
         raise _not_utf8(0, error) from error
 

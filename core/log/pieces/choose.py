@@ -1,10 +1,10 @@
 """Choose the rows of a log that are its motion, on one clock, and list what was done to get them.
 
-Runs that follow each other in one file become stretches with a gap between them, rows out of order are put in
-order, and bad rows at the ends of every run are left out.
+Rows that lack a value are left out, runs that follow each other in one file become stretches with a gap
+between them, rows out of order are put in order, and bad rows at the ends of every run are left out.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -12,10 +12,13 @@ import numpy as np
 
 from ...arrays import Samples
 from ..defects.runs import KEPT
+from ..layout import Layout
 from ..model import ArraySource, Defect, LogRows, LogSource, rows_at
 from .ends import FEWEST_ROWS, BadEnd, bad_head, bad_tail
+from .missing import WHAT, check_missing, missing_defects
 from .order import Order, order_of
-from .source import Piece, PiecedSource
+from .source import Piece, PiecedSource, WithoutRows
+from .survey import Survey
 
 END_ROWS = 4096
 """Rows of either end that are read first; more where half of them do not belong."""
@@ -31,52 +34,76 @@ class Chosen:
 
     source: LogSource
     done: tuple[Defect, ...] = ()
+    steps: tuple[Callable[[int], int], ...] = ()
+    """Each gives the number that a row had before a step of the choice."""
 
     def row_in_file(self, row: int) -> int:
-        """Give the number that a row has in the file; in that of sorted rows, where they were sorted."""
-        return self.source.row_in_source(row) if isinstance(self.source, PiecedSource) else row
+        """Give the number that a row has in the file."""
+        for before in reversed(self.steps):
+            row = before(row)
+        return row
 
 
-@np.errstate(over="ignore", invalid="ignore", divide="ignore")  # what is beyond any size is refused later
-def choose_rows(source: LogSource, stamps: Iterable[Samples] | None) -> Chosen:
+def choose_rows(source: LogSource, layout: Layout, found: Survey) -> Chosen:
     """Put rows in order and leave out what does not belong.
 
     Parameters
     ----------
     source
         All rows of the file.
-    stamps
-        All stamps in s, piece by piece, to be gone through once; None where the rows follow a uniform clock.
+    layout
+        Names the columns.
+    found
+        What a pass over all rows has shown.
+
+    Raises
+    ------
+    LogError
+        If most rows lack a value.
     """
-    order = Order()
-    done: list[Defect] = []
-    if stamps is not None and _has_backward_steps(stamps):
-        source = ArraySource(source.rows(0, source.samples))
-        order = order_of(source.data.time, source.data.position)
-        if order.rows is not None:
-            done += _order_defects(source.data, order)
-            source = ArraySource(rows_at(source.data, order.rows))
-    edges = [*order.starts, source.samples]
+    whole, ends = _without_missing(source, layout, found)
+    ordered, starts = _in_order(whole, backwards=found.backwards)
+    source = ordered.source
+    edges = [*starts, source.samples]
     runs = [Piece(start, stop) for start, stop in pairwise(edges)]
     runs, of_clock = _without_broken_clock(source, runs)
     trimmed = [_trim(source, run) for run in runs]
     pieces = [piece for piece, _ in trimmed]
-    done += _end_defects([of_clock, *(ends for _, ends in trimmed)])
+    done = [*ordered.done, *_end_defects([ends, of_clock, *(own for _, own in trimmed)])]
     if len(runs) > 1:
-        pieces, restarts = _in_sequence(source, pieces)
+        pieces, restarts = _in_sequence(ordered, pieces)
         done.append(restarts)
     if pieces == [Piece(0, source.samples)]:
-        return Chosen(source, tuple(done))
-    return Chosen(PiecedSource(source, pieces), tuple(done))
+        return Chosen(source, tuple(done), ordered.steps)
+    pieced = PiecedSource(source, pieces)
+    return Chosen(pieced, tuple(done), (*ordered.steps, pieced.row_in_source))
 
 
-def _has_backward_steps(stamps: Iterable[Samples]) -> bool:
-    last = -np.inf
-    for block in stamps:
-        if np.any(np.diff(block, prepend=last) < 0.0):
-            return True
-        last = float(block[-1]) if len(block) else last
-    return False
+def _without_missing(
+    source: LogSource, layout: Layout, found: Survey
+) -> tuple[Chosen, list[tuple[BadEnd, Samples]]]:
+    """Leave out the rows that lack a value; give those of the ends as what they are."""
+    if found.marks is None:
+        return Chosen(source), []
+    check_missing(found, layout)
+    defects, at_ends = missing_defects(found, layout, source)
+    left = WithoutRows(source, found.rows)
+    ends = [(BadEnd(rows, "position", f"values are {WHAT}"), stamps) for rows, stamps in at_ends]
+    return Chosen(left, defects, (left.row_in_source,)), ends
+
+
+def _in_order(chosen: Chosen, *, backwards: bool) -> tuple[Chosen, tuple[int, ...]]:
+    """Put the rows in order; give the first row of every run as well."""
+    if not backwards:
+        return chosen, (0,)
+    source = ArraySource(chosen.source.rows(0, chosen.source.samples))
+    order = order_of(source.data.time, source.data.position)
+    if order.rows is None:
+        return Chosen(source, chosen.done, chosen.steps), order.starts
+    rows = order.rows
+    done = (*chosen.done, *_order_defects(source.data, order))
+    ordered = ArraySource(rows_at(source.data, rows))
+    return Chosen(ordered, done, (*chosen.steps, lambda row: int(rows[row]))), order.starts
 
 
 def _without_broken_clock(
@@ -130,8 +157,9 @@ def _end(source: LogSource, run: Piece, *, first: bool) -> tuple[BadEnd | None, 
     return end, rows.time[: end.rows] if first else rows.time[-end.rows :]
 
 
-def _in_sequence(source: LogSource, pieces: list[Piece]) -> tuple[list[Piece], Defect]:
+def _in_sequence(ordered: Chosen, pieces: list[Piece]) -> tuple[list[Piece], Defect]:
     """Lay runs one after the other on one clock, without those too short to be differentiated."""
+    source = ordered.source
     ends = [source.rows(row, row + 1).time[0] for piece in pieces for row in (piece.start, piece.stop - 1)]
     spans = list(zip(ends[::2], ends[1::2], strict=True))
     kept = [number for number, (begin, end) in enumerate(spans) if end - begin >= SHORTEST_RUN_S]
@@ -146,16 +174,22 @@ def _in_sequence(source: LogSource, pieces: list[Piece]) -> tuple[list[Piece], D
         intervals.append((clock, clock + end - begin))
         clock += end - begin + pause
     rows = sum(piece.stop - piece.start for piece in laid[1:])
-    return laid, _restart_defect(pieces, kept, rows, intervals, pause)
+    firsts = [ordered.row_in_file(piece.start) + 1 for piece in pieces[1:6]]
+    return laid, _restart_defect(firsts, (len(pieces), len(kept)), rows, intervals, pause)
 
 
 def _restart_defect(
-    pieces: list[Piece], kept: list[int], rows: int, intervals: list[tuple[float, float]], pause: float
+    first_rows: list[int],
+    runs: tuple[int, int],
+    rows: int,
+    intervals: list[tuple[float, float]],
+    pause: float,
 ) -> Defect:
-    short = len(pieces) - len(kept)
-    firsts = ", ".join(str(piece.start + 1) for piece in pieces[1:6]) + (", ..." if len(pieces) > 6 else "")
+    every, kept = runs
+    short = every - kept
+    firsts = ", ".join(map(str, first_rows)) + (", ..." if every > len(first_rows) + 1 else "")
     statement = (
-        f"Time starts anew in row {firsts}: the file holds {len(pieces)} runs. They are taken one after the "
+        f"Time starts anew in row {firsts}: the file holds {every} runs. They are taken one after the "
         f"other, {pause:.3g} s apart on the clock, and no derivative crosses from one to the next."
     )
     if short:

@@ -14,8 +14,6 @@ from ...arrays import InstantMask, InstantSeries, JointSeries, JointVector, Samp
 from ..channels import EFFORTS
 from ..model import STANDING_ROWS, LogRows
 
-LARGEST = 1e15
-"""A number beyond this is no measured value."""
 FEWEST_ROWS = 100
 """Fewer rows than these have no body that an end could be compared with."""
 JUMP_FACTOR = 6.0
@@ -64,12 +62,7 @@ def bad_head(rows: LogRows) -> BadEnd | None:
     start, found = 0, None
     while len(rows.time) - start >= FEWEST_ROWS:
         time, position, torque = rows.time[start:], rows.position[start:], effort[start:]
-        new = (
-            _missing(time, position, torque)
-            or _other_clock(time)
-            or _far_position(position)
-            or _idle_effort(torque)
-        )
+        new = _other_clock(time) or _far_position(position) or _idle_effort(torque)
         if new is None:
             break
         start += new.rows
@@ -81,15 +74,6 @@ def bad_tail(rows: LogRows) -> BadEnd | None:
     """Judge the last rows of a stretch, which are the first of the motion run backwards."""
     backwards = {name: values[::-1] for name, values in rows.channels().items()}
     return bad_head(LogRows(-rows.time[::-1], **backwards))
-
-
-def _missing(time: Samples, position: JointSeries, effort: JointSeries) -> BadEnd | None:
-    measured = np.column_stack([time, position, effort])
-    with np.errstate(invalid="ignore"):
-        whole = np.all(np.abs(measured) < LARGEST, axis=1)
-    if whole[0] or not whole.any():
-        return None
-    return BadEnd(int(np.argmax(whole)), "position", "values are missing or not finite")
 
 
 def _other_clock(time: Samples) -> BadEnd | None:

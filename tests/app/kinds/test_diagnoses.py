@@ -149,7 +149,7 @@ def test_options_that_make_no_sense_are_refused_before_anything_is_computed(clie
 
 def test_a_log_that_is_not_finite_or_of_another_robot_is_never_diagnosed(client):
     def broken(time, position, torque):
-        position[7, 0] = np.nan
+        position[7:, 0] = np.nan
         return time, position, torque
 
     answer = client.post("/v1/logs", content=measured(broken), headers=CSV)

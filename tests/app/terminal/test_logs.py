@@ -148,7 +148,7 @@ FAULTS = {
         "rename them q_1",
     ),
     "no clock": (without("time"), "no column for time", '{"rate_hz": 250}'),
-    "a value that is none": (set_to(100, 2, np.nan), "q_2: rows: 1; first_rows: 101", "cut these rows out"),
+    "values that are none": (set_to(slice(100, 2000), 2, np.nan), "first_rows: 101", "logs join"),
     "a stamp twice": (set_to(200, 0, None), "duplicate stamps: 1", '"time": null'),
 }
 

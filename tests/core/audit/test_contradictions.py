@@ -1,5 +1,6 @@
 """What is spoilt in described bodies is named and corrected, and nothing else is."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -39,6 +40,9 @@ def test_the_corrected_description_tells_the_truth_and_nothing_else_changes():
     (row,) = document["contradicted"]
     assert (row["link"], row["entry"], document["judged"]) == (4, "mass", True)
     assert row["corrected"][0] == pytest.approx(case.truth[3, 9], rel=0.05)
+    said = re.search(r"measured ([\d.]+) kg \(p [=<] (\S+), ", row["statement"])
+    assert float(said[1]) == pytest.approx(row["corrected"][0], rel=1e-3)
+    assert float(said[2]) < 1e-6
     corrected = robot_from_description(document["corrected_robot"]).prior
     assert np.delete(corrected, 3, axis=0) == pytest.approx(np.delete(spoilt, 3, axis=0), rel=1e-6)
     urdf = urdf_of_description(document["corrected_robot"])

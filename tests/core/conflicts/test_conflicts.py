@@ -69,6 +69,28 @@ def test_two_things_that_are_spoilt_are_named_one_after_the_other(arm):
     assert mean_percent(document) < 1.05 * sound
 
 
+@pytest.mark.parametrize("factor", [180.0 / np.pi, np.pi / 180.0])
+@pytest.mark.parametrize("swapped", [False, True])
+def test_positions_that_are_all_in_another_unit_are_named_beside_channels_that_are_exchanged(
+    arm, factor, swapped
+):
+    """Degrees taken for rad, and rad taken for degrees: what is to be pasted says the unit."""
+    robot, log, sound = arm
+    plain = Assignment.as_measured(4)
+    spoilt = replace(plain, position=plain.position.scaled(factor, *range(4)))
+    spoilt = replace(spoilt, torque=plain.torque.exchanged(1, 2)) if swapped else spoilt
+    rows = whole_rows(assigned(log, spoilt))
+    document = identify(
+        IdentifyRequest(robot, (log_from_arrays("log", rows.time, rows.position, rows.torque),), PLAIN)
+    )
+    named = {(row["conflict"], *row["joints"]) for row in document["conflicts"]}
+    assert named == {("unit", 1, 2, 3, 4)} | ({("channels_swapped", 2, 3)} if swapped else set())
+    assert mean_percent(document) < 1.05 * sound
+    assert not [defect for defect in document["defects"] if defect["kind"] == "implausible_unit"]
+    if factor > 1.0:
+        assert document["conflicts"][-1]["correction"]["mapping"]["position"]["unit"] == ["deg"] * 4
+
+
 def test_a_measured_length_that_is_described_too_short_is_named_or_what_equals_it():
     pendulum, log = pendulum_robot(), measured_log("double_pendulum", "sys_id_2")
     setup = Setup.as_described(with_entry(pendulum, 2, "d", -0.1))

@@ -24,36 +24,37 @@ def refusal(columns, tmp_path, form="Parquet", **options):
 
 @pytest.mark.parametrize("form", ["CSV", "Parquet", "NPZ"])
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 1e300])
-def test_a_value_that_is_no_usable_number_is_refused_with_its_column_and_row(form, value, tmp_path):
+def test_a_column_without_a_usable_number_in_most_rows_is_refused_with_its_rows(form, value, tmp_path):
     def change(columns):
-        columns["tau_2"][[1000, 2000]] = value
+        columns["tau_2"][1000:2600] = value
+        columns["q_1"][500] = value
 
     error = refusal(spoiled(change), tmp_path, form)
-    assert error.cause.startswith("the column 'tau_2' holds 2 values missing")
-    assert error.cause.endswith("the first in row 1001")
-    assert error.evidence == {"columns": {"tau_2": {"rows": 2, "first_rows": [1001, 2001]}}}
+    assert error.cause.startswith("the column 'tau_2' holds 1600 values missing")
+    assert error.cause.endswith("the first in row 1001; 1601 of 3000 rows lack a value")
+    assert error.evidence["columns"] == {
+        "tau_2": {"rows": 1600, "first_rows": [1001, 1002, 1003, 1004, 1005]},
+        "q_1": {"rows": 1, "first_rows": [501]},
+    }
+    assert "write 0 in its whole column" in error.remedy
 
 
-def test_values_that_are_not_finite_are_counted_over_the_whole_of_a_long_log(tmp_path):
+def test_values_that_are_missing_are_counted_over_the_whole_of_a_long_log(tmp_path):
     columns = swing(seconds=400.0)
-    columns["q_1"][500::1000] = np.nan
+    columns["q_1"][501::3] = columns["q_1"][502::3] = np.nan
     error = refusal(columns, tmp_path)
-    assert error.evidence["columns"]["q_1"] == {"rows": 100, "first_rows": [501, 1501, 2501, 3501, 4501]}
+    assert error.evidence["columns"]["q_1"]["rows"] == 66_333
+    assert error.evidence["rows_that_lack_a_value"] == 66_333
 
 
-def test_an_empty_cell_is_a_missing_value(tmp_path):
-    path = write_csv(tmp_path / "log.csv", swing())
-    lines = path.read_text(encoding="utf-8").splitlines()
-    lines[500] = lines[500].rsplit(",", 1)[0] + ","
-    path.write_text("\n".join(lines), encoding="utf-8")
-    with pytest.raises(LogError) as caught:
-        read_log(path)
-    assert caught.value.evidence["columns"] == {"tau_3": {"rows": 1, "first_rows": [500]}}
+def test_the_remedy_for_a_torque_that_was_never_measured_leads_to_a_log(tmp_path):
+    def change(columns):
+        columns["tau_2"][:] = np.nan
 
-
-def test_a_stamp_that_is_not_finite_is_refused(tmp_path):
-    error = refusal(spoiled(lambda columns: columns["time"].__setitem__(7, np.nan)), tmp_path)
-    assert error.evidence["columns"]["time"]["first_rows"] == [8]
+    columns = spoiled(change)
+    assert "write 0 in its whole column: its equations alone" in refusal(columns, tmp_path).remedy
+    log = read_log(write_csv(tmp_path / "log.csv", columns | {"tau_2": np.zeros(3000)}))
+    assert [(defect.kind, defect.joint) for defect in log.defects] == [("missing_torque", 2)]
 
 
 def test_stamps_that_occur_twice_are_counted(tmp_path):
@@ -198,7 +199,7 @@ def test_arrays_given_directly_pass_the_same_checks():
 
 
 def test_the_order_of_refusals_does_not_depend_on_the_format(tmp_path):
-    columns = spoiled(lambda columns: columns["q_1"].__setitem__(3, np.nan))
+    columns = spoiled(lambda columns: columns["q_1"].__setitem__(slice(100, 2900), np.nan))
     kinds = {str(refusal(columns, tmp_path, form)) for form in WRITERS}
     assert len(kinds) == 1
 

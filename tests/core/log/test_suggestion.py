@@ -123,3 +123,91 @@ def test_a_refusal_for_names_offers_the_mapping_that_would_do(tmp_path):
     (offered,) = refusal.value.evidence["suggested_mappings"]
     assert json.dumps(offered) in refusal.value.remedy
     assert read_log(path, mapping=offered).joints == 2
+
+
+ALPHABETICAL = ("elbow_joint", "shoulder_lift_joint", "shoulder_pan_joint", "wrist_1_joint", "wrist_2_joint")
+
+
+@pytest.mark.parametrize(
+    "pattern", ["{quantity}.{joint}", "/joint_states/{joint}/{quantity}", "{joint}_{quantity}"]
+)
+def test_joints_called_by_their_part_are_all_suggested_in_the_order_of_the_arm(pattern, tmp_path):
+    """Part of them are numbered as well, which makes no robot of two joints of them."""
+    columns = swing(joints=5)
+    names = {
+        pattern.format(quantity=quantity, joint=joint): columns[f"{prefix}_{number}"]
+        for quantity, prefix in (("position", "q"), ("effort", "tau"))
+        for number, joint in enumerate(ALPHABETICAL, 1)
+    }
+    path = write_csv(tmp_path / "log.csv", {"time": columns["time"]} | names)
+    order = ["shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint", "wrist_1_joint", "wrist_2_joint"]
+    suggested = check_log(path).suggestion
+    for channel, quantity in (("position", "position"), ("torque", "effort")):
+        wanted = [pattern.format(quantity=quantity, joint=joint) for joint in order]
+        assert suggested[channel]["columns"] == wanted
+
+
+def test_a_gripper_of_another_name_does_not_join_the_numbered_joints(tmp_path):
+    table = recorded("t", "J1_pos", "J2_pos", "J1_torque", "J2_torque")
+    table |= {"gripper_pos": COLUMNS["q_1"], "gripper_torque": COLUMNS["tau_1"]}
+    suggested = check_log(write_csv(tmp_path / "log.csv", table)).suggestion
+    assert suggested["position"]["columns"] == ["J1_pos", "J2_pos"]
+
+
+@pytest.mark.parametrize("order", ["q tau", "tau q", "q qd tau", "q tau qd"])
+def test_columns_without_names_are_told_by_what_they_hold(order, tmp_path):
+    columns = swing(joints=3)
+    columns |= {f"qd_{j}": np.gradient(columns[f"q_{j}"], columns["time"]) for j in (1, 2, 3)}
+    table = [columns["time"], *(columns[f"{prefix}_{j}"] for prefix in order.split() for j in (1, 2, 3))]
+    np.savetxt(tmp_path / "log.txt", np.column_stack(table))
+    suggested = check_log(tmp_path / "log.txt").suggestion
+    log = read_log(tmp_path / "log.txt", mapping=suggested)
+    np.testing.assert_allclose(whole_rows(log).position[:, 2], columns["q_3"])
+    np.testing.assert_allclose(whole_rows(log).torque[:, 0], columns["tau_1"])
+    assert ("velocity" in log.channels) is ("qd" in order)
+
+
+@pytest.mark.parametrize("width", [1, 2, 3, 5])
+def test_columns_without_names_that_fit_no_arm_are_not_guessed(width, tmp_path):
+    """No clock, or no equal number of columns for each quantity."""
+    random = np.random.default_rng(3)
+    np.savetxt(tmp_path / "log.txt", random.standard_normal((300, width + 1)))
+    assert check_log(tmp_path / "log.txt").suggestion is None
+
+
+@pytest.mark.parametrize("names", [("position", "torque"), ("angle [rad]", "torque [Nm]"), ("pos", "effort")])
+def test_one_joint_needs_no_number(names, tmp_path):
+    table = {"t": COLUMNS["time"], names[0]: COLUMNS["q_1"], names[1]: COLUMNS["tau_1"]}
+    path = write_csv(tmp_path / "log.csv", table)
+    assert read_log(path, mapping=check_log(path).suggestion).joints == 1
+
+
+def test_a_clock_of_another_name_is_the_column_that_grows_and_does_not_count(tmp_path):
+    table = {"frame": np.arange(3000.0)} | recorded("duration", "pos1", "pos2", "trq1", "trq2")
+    suggested = check_log(write_csv(tmp_path / "log.csv", table)).suggestion
+    assert suggested["time"] == {"column": "duration", "unit": "s"}
+
+
+def test_what_is_measured_at_the_motor_leaves_the_gear_open(tmp_path):
+    names = ("motor_pos_1", "motor_pos_2", "motor_torque_1", "motor_torque_2")
+    suggested = check_log(write_csv(tmp_path / "log.csv", recorded("t", *names, scales=(32, 45)))).suggestion
+    assert suggested["position"] == {"columns": list(names[:2]), "unit": "rad", "scale": UNKNOWN}
+    assert suggested["torque"] == {"columns": list(names[2:]), "unit": "N m", "scale": UNKNOWN}
+
+
+@pytest.mark.parametrize(
+    ("names", "there", "absent"),
+    [
+        (("feedback.joints[0]", "feedback.joints[1]"), "positions", "torque or current"),
+        (("q_1", "q_2"), "positions", "torque or current"),
+        (("torque_ref_1", "torque_ref_2"), "torque or current", "positions"),
+    ],
+)
+def test_half_a_log_is_told_to_be_joined_with_the_other_half(names, there, absent, tmp_path):
+    table = {"feedback.time": COLUMNS["time"]} | dict(zip(names, list(COLUMNS.values())[1:3], strict=True))
+    path = write_csv(tmp_path / "log.csv", table)
+    seen = check_log(path)
+    assert seen.refusal.cause == f"the file holds {there}, and no {absent}"
+    assert "veritorque logs join" in seen.refusal.remedy
+    with pytest.raises(LogError, match="and no"):
+        read_log(path)

@@ -65,3 +65,14 @@ def test_the_columns_are_what_a_link_of_changing_inertia_adds(arm, damping_ratio
     found = term.series(second.robot(), state)[0] / stiffness
     inner = slice(25, -25)
     assert np.std(found[inner] - true[inner]) < 0.03 * np.std(true[inner])
+
+
+def test_a_load_that_drives_its_own_swing_without_bound_leaves_finite_columns(arm):
+    """As with degrees taken for rad: speeds are 57 times too large, and no number would hold the swing."""
+    believed = arm[1]
+    time = np.arange(round(20.0 * RATE_HZ)) / RATE_HZ
+    position, velocity, acceleration = (180.0 / np.pi * np.array(series) for series in motor(time))
+    column = Elasticity(0, believed, 5.0, RESONANCE_HZ, 0.02)
+    (torques,) = column.torques(second.robot(), MotionState(position, velocity, acceleration, time))
+    assert np.isfinite(torques).all()
+    assert np.abs(torques).max() < 1e12

@@ -41,9 +41,31 @@ def test_lists_are_split_into_columns_and_that_is_said(kind, tmp_path):
     assert [defect.kind for defect in log.defects] == ["rearranged"]
 
 
+@pytest.mark.parametrize("kind", [pa.list_(pa.float32()), pa.list_(pa.float64(), 3)])
+def test_rows_whose_list_is_missing_or_cut_short_are_left_out(kind, tmp_path):
+    lists = POSITION.tolist()
+    lists[0] = lists[777] = None
+    if kind.value_type == pa.float32():
+        lists[900] = lists[900][:2]
+        lists[901] = []
+    table = pa.table(
+        {
+            "observation.state": pa.array(lists, kind),
+            "observation.effort": pa.array(TORQUE.tolist(), pa.list_(pa.float64())),
+            "timestamp": COLUMNS["time"],
+        }
+    )
+    pq.write_table(table, tmp_path / "log.parquet", row_group_size=700)
+    log = read_log(tmp_path / "log.parquet", mapping=MAPPING)
+    left_out = [row for row, values in enumerate(lists) if values is None or len(values) < 3]
+    np.testing.assert_array_equal(whole_rows(log).torque, np.delete(TORQUE, left_out, axis=0))
+    kinds = {defect.kind: defect.count for defect in log.defects}
+    assert (kinds["bad_end"], kinds["missing_values"]) == (1, len(left_out) - 1)
+
+
 def test_lists_of_unlike_length_are_refused_by_name(tmp_path):
     lists = POSITION.tolist()
-    lists[777] = lists[777][:2]
+    lists[777:] = [values[:2] for values in lists[777:]]
     table = pa.table(
         {"observation.state": lists, "observation.effort": TORQUE.tolist(), "timestamp": COLUMNS["time"]}
     )

@@ -52,13 +52,28 @@ def test_a_row_per_signal_becomes_the_columns_that_it_names(tmp_path):
     np.testing.assert_array_equal(whole_rows(log).torque[:, 1], COLUMNS["tau_2"])
 
 
-def test_joints_sampled_at_instants_of_their_own_are_refused(tmp_path):
+def test_rows_of_a_joint_that_are_missing_are_missing_values(tmp_path):
     path = tmp_path / "log.csv"
     rows = long_rows("joint", "time,KEY,position,torque").split("\n")
-    path.write_text("\n".join(row for number, row in enumerate(rows) if number != 778))
+    path.write_text("\n".join(row for number, row in enumerate(rows) if number not in (778, 2001)))
+    log = read_log(path, mapping=check_log(path).suggestion)
+    kept = np.delete(np.arange(len(COLUMNS["time"])), [388, 1000])
+    np.testing.assert_allclose(whole_rows(log).time, COLUMNS["time"][kept], atol=1e-9)
+    np.testing.assert_allclose(whole_rows(log).position[:, 1], COLUMNS["q_2"][kept], atol=1e-9)
+    assert [(defect.kind, defect.count) for defect in log.defects][1] == ("missing_values", 2)
+
+
+def test_joints_sampled_at_instants_of_their_own_are_refused(tmp_path):
+    path = tmp_path / "log.csv"
+    header, *rows = long_rows("joint", "time,KEY,position,torque").split("\n")
+    own = [
+        f"{float(time) + 0.001 * (number % 2 and number % 10 > 5):.6f},{rest}"
+        for number, (time, _, rest) in enumerate(row.partition(",") for row in rows)
+    ]
+    path.write_text("\n".join([header, *own]))
     with pytest.raises(LogError, match="different stamps") as refusal:
         read_log(path)
-    assert refusal.value.evidence["rows"] == {"shoulder": 3000, "elbow": 2999}
+    assert refusal.value.evidence["rows"] == {"shoulder": 3000, "elbow": 3000}
 
 
 def test_a_column_called_id_does_not_make_a_table_long(tmp_path):

@@ -7,7 +7,11 @@ from veritorque.core.log.model import whole_rows
 from veritorque.core.log.reader import read_log
 
 pytest.importorskip("rosbags", reason="ROS recordings need the extra 'ros'")
-from tests.core.log.recordings import write_bag, write_mcap
+from rosbags.rosbag2 import StoragePlugin
+from rosbags.rosbag2 import Writer as McapWriter
+from rosbags.typesys import Stores, get_typestore
+
+from tests.core.log.recordings import JOINT_STATE, messages, write_bag, write_mcap
 
 COLUMNS = swing(seconds=4.0)
 COLUMNS |= {f"qd_{joint}": np.gradient(COLUMNS[f"q_{joint}"], COLUMNS["time"]) for joint in (1, 2, 3)}
@@ -34,6 +38,33 @@ def test_joints_are_never_taken_in_the_order_in_which_they_were_published(write,
     with pytest.raises(LogError, match="no column for position") as caught:
         read_log(path)
     assert "position.elbow" in caught.value.evidence["columns"]
+
+
+def test_messages_that_lack_a_value_are_left_out_and_those_of_others_passed_over(tmp_path):
+    """A gripper publishes on the arm's topic, a driver leaves out a field, and another writes NaN for it."""
+    types = get_typestore(Stores.ROS2_HUMBLE)
+    columns = {name: values.copy() for name, values in COLUMNS.items()}
+    columns["tau_2"][400] = np.nan
+    arm = [*messages(types, columns, JOINTS, ros1=False)]
+    gripper = [*messages(types, COLUMNS, {"finger": 1}, ros1=False)]
+    arm[600][1].effort = np.zeros(0)
+    arm[700][1].name, *fields = (arm[700][1].name[::-1], *("position", "velocity", "effort"))
+    for name in fields:
+        setattr(arm[700][1], name, getattr(arm[700][1], name)[::-1].copy())
+    with McapWriter(tmp_path / "made", version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+        connection = writer.add_connection("/joint_states", JOINT_STATE, typestore=types)
+        for pair in zip(gripper, arm, strict=True):
+            for stamp, message in pair:
+                writer.write(connection, stamp, types.serialize_cdr(message, JOINT_STATE))
+    path = tmp_path / "made" / "made.mcap"
+    log = read_log(path, mapping={"profile": "ros-jointstate", "joints": ORDER})
+    kept = np.delete(np.arange(len(COLUMNS["time"])), [400, 600])
+    for values, prefix in ((whole_rows(log).position, "q"), (whole_rows(log).torque, "tau")):
+        np.testing.assert_array_equal(
+            values, np.column_stack([columns[f"{prefix}_{j}"][kept] for j in (1, 2, 3)])
+        )
+    assert "1000 messages of finger passed over" in log.defects[0].statement
+    assert (log.defects[1].kind, log.defects[1].count) == ("missing_values", 2)
 
 
 def test_a_definition_that_a_recording_brings_along_is_never_compiled(tmp_path):

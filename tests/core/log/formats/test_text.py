@@ -7,6 +7,7 @@ import pytest
 
 from tests.core.log.writers import swing
 from veritorque.core.errors import LogError
+from veritorque.core.log.check import check_log
 from veritorque.core.log.model import whole_rows
 from veritorque.core.log.reader import read_log
 
@@ -136,3 +137,20 @@ def test_only_the_last_row_may_be_cut_short(tmp_path):
     path.write_text("\n".join([*lines()[:900], "12.000,0.1", *lines()[900:], "12.000,0.1"]))
     with pytest.raises(LogError, match="holds 2 cells"):
         read_log(path)
+
+
+@pytest.mark.parametrize("repeated", [False, True])
+def test_the_code_page_of_windows_is_read_with_its_degrees_and_umlauts(repeated, tmp_path):
+    columns = swing(joints=2)
+    names = ["Zeit", "Lage Achse 1 [°]", "Lage Achse 2 [°]", "Moment Größe 1 [Nm]", "Moment Größe 2 [Nm]"]
+    rows = [";".join(f"{value:.9g}" for value in row) for row in np.column_stack(list(columns.values()))]
+    header = ";".join(names)
+    rows = [*rows[:100], header, *rows[100:]] if repeated else rows
+    path = tmp_path / "messung.csv"
+    path.write_bytes("\r\n".join(["Prüfstand 3", header, *rows]).encode("cp1252"))
+    seen = check_log(path)
+    assert seen.columns == tuple(names)
+    assert seen.suggestion["position"] == {"columns": names[1:3], "unit": "deg"}
+    log = read_log(path, mapping=seen.suggestion)
+    np.testing.assert_allclose(np.degrees(whole_rows(log).position[:, 0]), columns["q_1"], atol=1e-7)
+    assert "read as Windows-1252" in log.defects[0].statement
