@@ -25,11 +25,15 @@ def has_plausible_size(fitter: HypothesisFitter, chosen: Hypothesis, index: int)
 
 
 def _within_torque(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> bool:
-    """Tell whether the torque of a member exceeds the joint's own on no joint; RMS over usable rows."""
+    """Tell whether the torque of a member exceeds the joint's own on no joint; RMS over usable rows.
+
+    A constant part says nothing: a spring's column is without its rest angle, which the offset absorbs.
+    """
     dataset, values = fitter.dataset, chosen.fit.values[chosen.columns_of(index)]
     for joint, own in fitter.columns([chosen.members[index]])[0].items():
         usable = dataset.usable[:, joint]
         effect, torque = own[usable] @ values, dataset.torque[usable, joint]
+        effect -= effect.mean()
         if effect @ effect > SIZE.torque_share**2 * (torque @ torque):
             return False
     return True
