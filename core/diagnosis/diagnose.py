@@ -12,7 +12,6 @@ import numpy as np
 
 from ..arrays import BlockKey, JointSeries
 from ..dynamics.model import DynamicModel
-from ..dynamics.prediction import Prediction
 from ..identification.reference import Reference
 from ..log.model import JointLog
 from ..log.shifted import with_later_effort
@@ -35,7 +34,7 @@ from .residual.learner import Predictable, predictable_share
 from .result import Diagnosis, Finding, NotIdentifiable, UnnamedPattern, Verdict
 from .search.alignment import restart_from_alignment
 from .search.fitter import HypothesisFitter, hypothesis_fitter
-from .search.hypothesis import Candidate, Hypothesis
+from .search.hypothesis import Candidate
 from .search.likelihood_ratio import likelihood_ratio, log_p
 from .search.motion_band import drop_what_motion_does_not_show
 from .search.residuals import residual, stiction_share
@@ -186,7 +185,7 @@ def _check_samples(problem: DiagnosisProblem) -> tuple[list[Finding], Dataset]:
         fitter, found = _plain_fit(problem, dataset)
         plain.append((fitter, found))
         noise = tuple(joint.noise for joint in found.fit.joints)
-        fits.append((dataset, _operating_point(fitter, found), noise))
+        fits.append((dataset, fitter.linearised_at(found).operating_point, noise))
         return fits[-1]
 
     dataset, _, _ = limit_bandwidth(fit_at)
@@ -198,14 +197,9 @@ def _check_samples(problem: DiagnosisProblem) -> tuple[list[Finding], Dataset]:
     ]
     pushes = contacts_at_rest(wide, operating_point)
     faults += [sample_finding(ExternalContact(), push, wide) for push in pushes]
-    clipped = clipped_channels(wide, lambda rest: _operating_point(*_plain_fit(problem, rest)))
+    clipped = clipped_channels(wide, partial(_plain_fit, problem))
     faults += [sample_finding(ClippedChannel(), limit, wide) for limit in clipped]
     return faults, with_typical_holdout(dataset, plain[-1], partial(_plain_fit, problem))
-
-
-def _operating_point(fitter: HypothesisFitter, found: Hypothesis) -> Prediction:
-    """Give the prediction of a hypothesis."""
-    return fitter.linearised_at(found).operating_point
 
 
 def _plain_fit(problem: DiagnosisProblem, dataset: Dataset) -> Explained:

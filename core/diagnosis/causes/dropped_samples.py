@@ -138,7 +138,7 @@ def _repeated(fraction: float) -> Corruption:
         del velocity
         lost = rng.random(len(position)) < fraction
         kept = np.maximum.accumulate(np.where(lost, 0, np.arange(len(lost))))
-        return position[kept] - position
+        return np.asarray(position[kept] - position)
 
     return corrupt
 

@@ -13,7 +13,6 @@ import numpy as np
 from scipy.stats import norm
 
 from ...arrays import SampleMask
-from ...dynamics.prediction import Prediction
 from ...log.model import JointLog
 from ...robot.joint_units import joint_unit
 from ..causes.protocol import Quantity, number_text
@@ -22,6 +21,7 @@ from ..causes.torque_saturation import TorqueSaturation
 from ..dataset.dataset import Dataset
 from ..regression.innovation_covariance import torque_residual
 from ..thresholds.dataset import SAMPLE_CHECKS
+from .holdout_outliers import Explained
 
 ROWS = 65_536
 
@@ -42,21 +42,22 @@ class _Limit:
     rows: SampleMask
 
 
-def clipped_channels(dataset: Dataset, fitted: Callable[[Dataset], Prediction]) -> tuple[SampleFinding, ...]:
+def clipped_channels(dataset: Dataset, fitted: Callable[[Dataset], Explained]) -> tuple[SampleFinding, ...]:
     """Give every limit of a channel beyond which a model predicts torque.
 
     Parameters
     ----------
     fitted
-        Fits the model to a data set.
+        Fits the model to a data set: gives a fitter and its fit.
     """
-    found = []
+    findings = []
     for limit in _limits(dataset):
-        left = torque_residual(dataset, fitted(_without(dataset, limit)))[:, limit.joint]
+        fitter, found = fitted(_without(dataset, limit))
+        left = torque_residual(dataset, fitter.linearised_at(found).operating_point)[:, limit.joint]
         finding = _judged(dataset, limit, left)
         if finding is not None:
-            found.append(finding)
-    return tuple(found)
+            findings.append(finding)
+    return tuple(findings)
 
 
 def _without(dataset: Dataset, limit: _Limit) -> Dataset:

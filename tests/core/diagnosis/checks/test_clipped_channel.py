@@ -1,5 +1,7 @@
 """A channel that reads no more than a limit is told from a drive at its limit by what the motion asks for."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from tests.core.diagnosis.scenes import ARM_RATE_HZ, skew_arm
@@ -36,10 +38,25 @@ def clipped(values: np.ndarray) -> tuple[np.ndarray, float]:
     return out, limit
 
 
+@dataclass
+class Fitted:
+    """Stand for a fitter whose fit is what it was told."""
+
+    operating_point: Prediction
+
+    def linearised_at(self, found: object) -> "Fitted":
+        return self
+
+
+def knows(prediction: Prediction) -> tuple[Fitted, None]:
+    """Fit nothing: the parameters are known."""
+    return Fitted(prediction), None
+
+
 def test_a_clipped_channel_is_named_with_its_limit():
     position, whole = torque()
     logged, limit = clipped(whole)
-    found = clipped_channels(look(position, logged), lambda rest: Prediction(MODEL, TRUTH))
+    found = clipped_channels(look(position, logged), lambda rest: knows(Prediction(MODEL, TRUTH)))
     assert {one.site for one in found} == {(JOINT + 1,)}
     for one in found:
         assert one.quantities[0].value == limit
@@ -56,16 +73,16 @@ def test_a_drive_at_its_limit_whose_motion_shows_the_limit_is_no_clipped_channel
         def torque(self, state):
             return clipped(super().torque(state))[0]
 
-    assert clipped_channels(look(position, logged), lambda rest: Applied(MODEL, TRUTH)) == ()
+    assert clipped_channels(look(position, logged), lambda rest: knows(Applied(MODEL, TRUTH))) == ()
 
 
 def test_no_fit_sees_the_rows_at_a_limit_and_no_fit_is_made_where_there_is_none():
     position, whole = torque()
     seen = []
 
-    def fitted(rest: Dataset) -> Prediction:
+    def fitted(rest: Dataset):
         seen.append(rest)
-        return Prediction(MODEL, TRUTH)
+        return knows(Prediction(MODEL, TRUTH))
 
     clipped_channels(look(position, whole), fitted)
     assert not seen
