@@ -28,9 +28,19 @@ def test_a_springs_size_is_as_plausible_wherever_its_column_counts_from(sprung: 
     assert sensible(sprung, lambda state: [state.position[:, JOINT - 1] - zero])
 
 
-def test_a_torque_that_another_column_cancels_has_no_plausible_size(sprung: Scene):
+def test_how_a_friction_curve_is_split_does_not_matter(sprung: Scene):
+    """Viscous friction of the opposite sign beside it is no more than another way to write the curve."""
+
     def make(state):
         spring, speed = state.position[:, JOINT - 1], state.velocity[:, JOINT - 1]
-        return [spring + 1e4 * speed]
+        return [spring + 100.0 * speed]
+
+    assert sensible(sprung, make)
+
+
+def test_a_torque_that_another_column_cancels_has_no_plausible_size(sprung: Scene):
+    def make(state):
+        spring, rotor = state.position[:, JOINT - 1], state.acceleration[:, JOINT - 1]
+        return [spring + 1e4 * rotor]
 
     assert not sensible(sprung, make)
