@@ -53,7 +53,7 @@ Only against a [reference](diagnosis.md#what-has-changed): without one, the base
 
 """
 EXCLUDED = """
-## What is never named
+### What is never named
 
 The structure of robot, motion and channel excludes names, whatever the likelihood says. No cause is named
 where

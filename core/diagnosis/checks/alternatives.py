@@ -146,7 +146,7 @@ def compare_member(state: SearchState, index: int) -> Comparison:
     own_gain, own_ratio = bic_gain(without, own), likelihood_ratio(without, own)
     for trial in _trials(state, without):
         other, ratio = trial.members[-1], likelihood_ratio(without, trial)
-        if keeps_beside(fitter, own, other, ratio) or is_masked_by_last(fitter, own, other):
+        if keeps_beside(fitter, without, own, other, ratio) or is_masked_by_last(fitter, own, other):
             continue
         behind = own_gain - bic_gain(without, trial)
         why = _objection(fitter, without, trial)

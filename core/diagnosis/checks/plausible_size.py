@@ -7,6 +7,7 @@ the motion contradicts, a cause says itself.
 
 import numpy as np
 
+from ...arrays import Samples
 from ..causes.protocol import Setting
 from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Hypothesis
@@ -25,14 +26,25 @@ def has_plausible_size(fitter: HypothesisFitter, chosen: Hypothesis, index: int)
 
 
 def _within_torque(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> bool:
-    """Tell whether the torque of a member exceeds the joint's own on no joint; RMS over usable rows."""
+    """Tell whether the torque of a member exceeds the joint's own on no joint; RMS over usable rows.
+
+    What the joint's own friction and offset stand for says nothing: a spring's column is without its rest
+    angle, and how a friction curve is split between a power and the Coulomb and viscous parts is arbitrary.
+    """
     dataset, values = fitter.dataset, chosen.fit.values[chosen.columns_of(index)]
     for joint, own in fitter.columns([chosen.members[index]])[0].items():
         usable = dataset.usable[:, joint]
         effect, torque = own[usable] @ values, dataset.torque[usable, joint]
+        effect -= _stood_for(dataset.state.velocity[usable, joint], effect)
         if effect @ effect > SIZE.torque_share**2 * (torque @ torque):
             return False
     return True
+
+
+def _stood_for(speed: Samples, effect: Samples) -> Samples:
+    """Give the part of a torque that offset, viscous and Coulomb friction represent."""
+    own = np.column_stack([np.ones_like(speed), speed, np.sign(speed)])
+    return np.asarray(own @ np.linalg.lstsq(own, effect, rcond=None)[0])
 
 
 def _is_determined(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> bool:

@@ -48,9 +48,28 @@ def _is_masked_event(
     return bool(explains_less) and (within or not _is_extreme(less, whole, index))
 
 
-def keeps_beside(fitter: HypothesisFitter, own: Hypothesis, other: Candidate, alone: float) -> bool:
-    """Tell whether a candidate explains as much beside a hypothesis: then it is no alternative."""
-    return fitter.scan(own, [other])[0].statistic > MASKING.kept * alone
+def keeps_beside(
+    fitter: HypothesisFitter, without: Hypothesis, own: Hypothesis, other: Candidate, alone: float
+) -> bool:
+    """Tell whether a candidate explains as much beside a hypothesis: then it is no alternative.
+
+    Noise that has absorbed a part of the candidate lowers its score, while its likelihood ratio is at its own
+    noise. On other joints than the last member's, scores are compared with scores.
+
+    Parameters
+    ----------
+    without, own
+        The hypothesis without its last member, and with it.
+    alone
+        The candidate's likelihood ratio statistic in the last member's place.
+    """
+    beside = fitter.scan(own, [other])[0].statistic
+    if beside > MASKING.kept * alone:
+        return True
+    here = own.members[-1].site
+    if not here or not other.site or not set(here).isdisjoint(other.site):
+        return False
+    return beside > MASKING.kept * fitter.scan(without, [other])[0].statistic
 
 
 def is_masked_by_last(fitter: HypothesisFitter, own: Hypothesis, other: Candidate) -> bool:
