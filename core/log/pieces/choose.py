@@ -15,6 +15,7 @@ from ..defects.runs import KEPT
 from ..layout import Layout
 from ..model import ArraySource, Defect, LogRows, LogSource, rows_at
 from .ends import FEWEST_ROWS, BadEnd, bad_head, bad_tail
+from .idle import idle_rows
 from .missing import WHAT, check_missing, missing_defects
 from .order import Order, order_of
 from .source import Piece, PiecedSource, WithoutRows
@@ -62,7 +63,7 @@ def choose_rows(source: LogSource, layout: Layout, found: Survey) -> Chosen:
         If most rows lack a value.
     """
     whole, ends = _without_missing(source, layout, found)
-    ordered, starts = _in_order(whole, backwards=found.backwards)
+    ordered, starts = _in_order(_without_idle(whole), backwards=found.backwards)
     source = ordered.source
     edges = [*starts, source.samples]
     runs = [Piece(start, stop) for start, stop in pairwise(edges)]
@@ -90,6 +91,15 @@ def _without_missing(
     left = WithoutRows(source, found.rows)
     ends = [(BadEnd(rows, "position", f"values are {WHAT}"), stamps) for rows, stamps in at_ends]
     return Chosen(left, defects, (left.row_in_source,)), ends
+
+
+def _without_idle(chosen: Chosen) -> Chosen:
+    """Leave out the rows that say nothing."""
+    idle, defects = idle_rows(chosen.source)
+    if not len(idle):
+        return chosen
+    left = WithoutRows(chosen.source, idle)
+    return Chosen(left, (*chosen.done, *defects), (*chosen.steps, left.row_in_source))
 
 
 def _in_order(chosen: Chosen, *, backwards: bool) -> tuple[Chosen, tuple[int, ...]]:

@@ -1,0 +1,52 @@
+"""Rows that say nothing are left out and listed; a robot that stands at zero is not among them."""
+
+import numpy as np
+import pytest
+
+from veritorque.core.log.model import whole_rows
+from veritorque.core.log.reader import read_log
+
+TIME = np.arange(3000) / 250.0
+POSITION = np.column_stack([np.sin(3.0 * TIME + 1.0), 0.5 + np.cos(2.0 * TIME)])
+TORQUE = np.column_stack([4.0 * np.cos(3.0 * TIME + 1.0), np.sin(2.0 * TIME)])
+
+
+def read(tmp_path, time, position, torque):
+    rows = np.column_stack([time, position, torque])
+    lines = ["t,q_1,q_2,tau_1,tau_2", *(",".join(map(repr, map(float, row))) for row in rows)]
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(lines))
+    channels = {"position": ("q", "rad"), "torque": ("tau", "N m")}
+    mapping = {
+        name: {"columns": [f"{symbol}_1", f"{symbol}_2"], "unit": unit}
+        for name, (symbol, unit) in channels.items()
+    }
+    return read_log(path, mapping={"time": {"column": "t", "unit": "s"}, **mapping})
+
+
+def test_a_row_that_is_written_twice_is_left_out(tmp_path):
+    twice = np.sort(np.r_[np.arange(3000), [7, 500, 500, 2999]])
+    log = read(tmp_path, TIME[twice], POSITION[twice], TORQUE[twice])
+    assert np.array_equal(whole_rows(log).position, POSITION)
+    (defect,) = log.defects
+    assert (defect.kind, defect.count) == ("doubled_rows", 4)
+
+
+@pytest.mark.parametrize("rows", [1, 3, 7])
+def test_zeros_of_a_lost_packet_are_left_out(tmp_path, rows):
+    position, torque = POSITION.copy(), TORQUE.copy()
+    for first in (900, 1500):
+        position[first : first + rows] = torque[first : first + rows] = 0.0
+    log = read(tmp_path, TIME, position, torque)
+    assert log.samples == 3000 - 2 * rows
+    assert {defect.kind: defect.count for defect in log.defects}["blank_rows"] == 2 * rows
+    assert "outliers" not in {defect.kind for defect in log.defects}
+
+
+def test_a_robot_that_passes_or_stands_at_zero_loses_no_row(tmp_path):
+    position, torque = POSITION * np.sin(0.8 * TIME)[:, None] ** 4, TORQUE * np.sin(0.8 * TIME)[:, None] ** 4
+    still = np.abs(np.sin(0.8 * TIME)) < 0.05
+    position[still] = torque[still] = 0.0
+    log = read(tmp_path, TIME, position, torque)
+    assert log.samples == 3000
+    assert "blank_rows" not in {defect.kind for defect in log.defects}
