@@ -19,6 +19,7 @@ from veritorque.core.conflicts.setup import Setup
 from veritorque.core.conflicts.trial import Trials
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.terms.kinematic_error import with_entry
+from veritorque.core.identification.doubts import has_impossible_joint
 from veritorque.core.log.assignment import Assignment, assigned
 from veritorque.core.log.model import whole_rows
 from veritorque.core.log.reader import log_from_arrays
@@ -26,7 +27,7 @@ from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.writing import to_description
 from veritorque.core.signals.recipe import FilterOptions
 from veritorque.core.signals.several import condition_all
-from veritorque.core.study import IdentifyRequest, diagnose, identify
+from veritorque.core.study import IdentifyRequest, diagnose, identify, identify_in_full
 from veritorque.core.validation.holdout import HoldOut
 
 PLAIN = {"bootstrap": {"draws": 0}}
@@ -159,6 +160,15 @@ def test_a_unit_is_asked_for_where_numbers_are_unusual_though_the_fit_is_good():
     (found,) = identify(IdentifyRequest(case.believed, (log,), PLAIN))["conflicts"]
     assert (found["conflict"], found["joints"]) == ("unit", [2])
     assert found["error_before_percent"] < 10.0
+
+
+def test_a_joint_that_only_impossible_bodies_follow_is_no_place_for_causes(arm):
+    robot, log, _ = arm
+    plain = Assignment.as_measured(4)
+    geared = assigned(log, replace(plain, torque=plain.torque.scaled(1.0 / 50.0, 1)))
+    as_logged = IdentifyRequest(robot, (geared,), PLAIN | {"conflicts": "report"})
+    assert has_impossible_joint(identify_in_full(as_logged))
+    assert not has_impossible_joint(identify_in_full(IdentifyRequest(robot, (log,), PLAIN)))
 
 
 def test_a_log_without_gravity_is_named(arm):
