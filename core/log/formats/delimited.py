@@ -16,7 +16,7 @@ import pyarrow.csv as arrow_csv
 
 from ...arrays import Series
 from ...errors import LogError
-from .arrow import numbers
+from .arrow import numbers, words_for_nothing
 from .stamps import Clock
 from .table import BY_NUMBER, MAX_COLUMNS, check_columns, check_rows, check_values, not_numeric, reading
 from .text_bytes import UTF_8, WESTERN, check_text, cut_line, encoding_of, opening_lines
@@ -34,24 +34,6 @@ from .tidy_lines import TidyLines
 
 FORM = "CSV"
 BLOCK_BYTES = 1 << 22
-ABSENT = (
-    "None",
-    "none",
-    "NONE",
-    "Null",
-    "NaT",
-    "NAN",
-    "-NAN",
-    "<NA>",
-    "-",
-    "--",
-    "---",
-    "?",
-    "-nan(ind)",
-    "nan(ind)",
-)
-"""What recorders write for a missing value, beside the usual words."""
-WIDEST_BLANK = 32
 _BAD_ROW = re.compile(
     r"Row #(?P<line>\d+): Expected (?P<columns>\d+) columns, got (?P<cells>\d+): (?P<text>.*)", re.DOTALL
 )
@@ -112,7 +94,7 @@ class DelimitedTable:
             include_columns=list(kinds),
             column_types=dict(kinds),
             decimal_point=self.decimal,
-            null_values=_absent(),
+            null_values=words_for_nothing(),
         )
         read = arrow_csv.ReadOptions(
             column_names=list(self.names),
@@ -143,13 +125,6 @@ class DelimitedTable:
             if (row := _BAD_ROW.search(str(error))) is not None:
                 raise _row_length_error(row, self.delimiter) from error
             raise
-
-
-def _absent() -> list[str]:
-    """List what stands for a missing value, also behind a blank."""
-    words = [*arrow_csv.ConvertOptions().null_values, *ABSENT]
-    blanks = [" " * width for width in range(2, WIDEST_BLANK + 1)]
-    return [*words, *(f" {word}" for word in words), *blanks]
 
 
 class _RowJudge:
