@@ -15,7 +15,6 @@ from ..defects.runs import KEPT
 from ..layout import Layout
 from ..model import ArraySource, Defect, LogRows, LogSource, rows_at
 from .ends import FEWEST_ROWS, BadEnd, bad_head, bad_tail
-from .idle import idle_rows
 from .missing import WHAT, check_missing, missing_defects
 from .order import Order, order_of
 from .source import Piece, PiecedSource, WithoutRows
@@ -63,7 +62,7 @@ def choose_rows(source: LogSource, layout: Layout, found: Survey) -> Chosen:
         If most rows lack a value.
     """
     whole, ends = _without_missing(source, layout, found)
-    ordered, starts = _in_order(_without_idle(whole), backwards=found.backwards)
+    ordered, starts = _in_order(_without_idle(whole, found), backwards=found.backwards)
     source = ordered.source
     edges = [*starts, source.samples]
     runs = [Piece(start, stop) for start, stop in pairwise(edges)]
@@ -93,13 +92,13 @@ def _without_missing(
     return Chosen(left, defects, (left.row_in_source,)), ends
 
 
-def _without_idle(chosen: Chosen) -> Chosen:
-    """Leave out the rows that say nothing."""
-    idle, defects = idle_rows(chosen.source)
+def _without_idle(chosen: Chosen, found: Survey) -> Chosen:
+    """Leave out the rows that say nothing, of those that are left."""
+    idle = np.setdiff1d(found.idle.numbers(), found.rows)
     if not len(idle):
         return chosen
-    left = WithoutRows(chosen.source, idle)
-    return Chosen(left, (*chosen.done, *defects), (*chosen.steps, left.row_in_source))
+    left = WithoutRows(chosen.source, idle - np.searchsorted(found.rows, idle))
+    return Chosen(left, (*chosen.done, *found.idle.defects()), (*chosen.steps, left.row_in_source))
 
 
 def _in_order(chosen: Chosen, *, backwards: bool) -> tuple[Chosen, tuple[int, ...]]:

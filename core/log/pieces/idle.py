@@ -8,36 +8,51 @@ import numpy as np
 
 from ...arrays import Indices, SampleMask
 from ..defects.stretch import count_text
-from ..model import STANDING_ROWS, Defect, LogRows, LogSource
+from ..model import STANDING_ROWS, Defect, LogRows, rows_at
 from .ends import JUMP_FACTOR, USUAL_SHARE
-from .survey import BLOCK_ROWS
+
+_STATEMENTS = {
+    "doubled_rows": "repeat the row before, stamp and all, and are left out",
+    "blank_rows": "are zero in all positions and efforts while the robot is elsewhere, and are left out",
+}
 
 
-def idle_rows(source: LogSource) -> tuple[Indices, tuple[Defect, ...]]:
-    """Give the numbers of the rows that say nothing, and what they are."""
-    found: dict[str, list[Indices]] = {"doubled_rows": [], "blank_rows": []}
-    for start in range(0, source.samples, BLOCK_ROWS):
-        first = max(start - 1, 0)
-        rows = source.rows(first, min(start + BLOCK_ROWS, source.samples))
-        for kind, marks in (("doubled_rows", _doubled(rows)), ("blank_rows", _blank(rows))):
-            found[kind].append(first + np.flatnonzero(marks))
-    numbers = {kind: np.unique(np.concatenate(parts)) for kind, parts in found.items()}
-    statements = {
-        "doubled_rows": "repeat the row before, stamp and all, and are left out",
-        "blank_rows": "are zero in all positions and efforts while the robot is elsewhere, and are left out",
-    }
-    defects = [
-        Defect(kind, "file", None, len(rows), (), f"{count_text(len(rows), 'row')} {statements[kind]}.")
-        for kind, rows in numbers.items()
-        if len(rows)
-    ]
-    return np.union1d(*numbers.values()), tuple(defects)
+class IdleRows:
+    """Collect the rows that say nothing, stretch after stretch of a file."""
+
+    def __init__(self) -> None:
+        self._found: dict[str, list[Indices]] = {kind: [] for kind in _STATEMENTS}
+        self._last: LogRows | None = None
+
+    def take(self, rows: LogRows, first: int) -> None:
+        """Take the next rows, the first of which has this number."""
+        for kind, marks in (("doubled_rows", _doubled(rows, self._last)), ("blank_rows", _blank(rows))):
+            if marks.any():
+                self._found[kind].append(first + np.flatnonzero(marks))
+        self._last = rows_at(rows, slice(-1, None))
+
+    def numbers(self) -> Indices:
+        """Give the numbers of all of them."""
+        parts = [part for parts in self._found.values() for part in parts]
+        return np.unique(np.concatenate(parts)) if parts else np.zeros(0, dtype=int)
+
+    def defects(self) -> tuple[Defect, ...]:
+        """Say what they are."""
+        counts = {kind: sum(map(len, parts)) for kind, parts in self._found.items()}
+        return tuple(
+            Defect(kind, "file", None, count, (), f"{count_text(count, 'row')} {_STATEMENTS[kind]}.")
+            for kind, count in counts.items()
+            if count
+        )
 
 
-def _doubled(rows: LogRows) -> SampleMask:
+def _doubled(rows: LogRows, last: LogRows | None) -> SampleMask:
     marks = np.zeros(len(rows.time), dtype=bool)
     marks[1:] = rows.time[1:] == rows.time[:-1]
-    for values in rows.channels().values() if marks.any() else ():
+    if last is not None and len(marks) and rows.time[0] == last.time[-1]:
+        before, first = last.channels(), rows_at(rows, slice(0, 1)).channels()
+        marks[0] = all(np.array_equal(values, before[name], equal_nan=True) for name, values in first.items())
+    for values in rows.channels().values() if marks[1:].any() else ():
         marks[1:] &= np.all((values[1:] == values[:-1]) | np.isnan(values[1:]), axis=1)
     return marks
 
@@ -45,12 +60,13 @@ def _doubled(rows: LogRows) -> SampleMask:
 def _blank(rows: LogRows) -> SampleMask:
     """Mark short runs of zeros between rows at which a joint is too far from zero to have come from there."""
     efforts = [values for values in (rows.torque, rows.current) if values is not None]
-    zero = np.all(np.hstack([rows.position, *efforts]) == 0.0, axis=1)
+    zero = np.logical_and.reduce([np.all(values == 0.0, axis=1) for values in (rows.position, *efforts)])
     marks = np.zeros(len(zero), dtype=bool)
     if not zero.any() or zero.all():
         return marks
     steps = np.abs(np.diff(rows.position[~zero], axis=0))
-    usual = np.quantile(steps, USUAL_SHARE, axis=0) if len(steps) else np.zeros(rows.position.shape[1])
+    known = steps[np.isfinite(steps).all(axis=1)]
+    usual = np.quantile(known, USUAL_SHARE, axis=0) if len(known) else np.full(steps.shape[1], np.inf)
     edges = np.flatnonzero(np.diff(zero, prepend=False, append=False))
     for start, stop in zip(edges[::2], edges[1::2], strict=True):
         if start == 0 or stop == len(zero) or stop - start > STANDING_ROWS:

@@ -1,4 +1,4 @@
-"""Pass over a file's rows once: which lack a value, and whether the stamps ever step back."""
+"""Pass over a file's rows once: which lack a value or say nothing, and whether stamps ever step back."""
 
 from dataclasses import dataclass, field
 
@@ -7,6 +7,7 @@ import numpy as np
 from ...arrays import Indices, SampleMask, Samples
 from ..channels import TIME
 from ..model import LogRows, LogSource
+from .idle import IdleRows
 
 BLOCK_ROWS = 32_768
 LARGEST = 1e15
@@ -33,6 +34,8 @@ class Survey:
     """Numbers of the first rows, from 1."""
     by_channel: dict[str, int] = field(default_factory=dict)
     """How many rows lack a value of a channel."""
+    idle: IdleRows = field(default_factory=IdleRows)
+    """Rows that say nothing."""
     _last: float = -np.inf
 
     @property
@@ -75,6 +78,7 @@ class Survey:
         if self.marks is not None:
             self.marks[first : first + len(missing)] = missing
         self._order(rows.time)
+        self.idle.take(rows, first)
 
     def _order(self, stamps: Samples) -> None:
         known = stamps[np.isfinite(stamps)]
