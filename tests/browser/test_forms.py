@@ -242,6 +242,21 @@ def test_values_that_are_missing_are_named_with_column_and_row_before_any_mappin
     form.wait_for()
 
 
+def test_the_form_numbers_the_joints_in_the_order_that_is_suggested(look, service, tmp_path):
+    time, position, torque = columns(seconds=4.0)
+    path = tmp_path / "named.csv"
+    names = "time,elbow_pos,shoulder_pos,elbow_torque,shoulder_torque"
+    table = np.column_stack([time, position, torque])
+    np.savetxt(path, table, delimiter=",", header=names, comments="")
+    seen = look(service)
+    seen.statuses.add(422)
+    page = seen.open("/new")
+    page.set_input_files("#log input[type=file]", path)
+    page.get_by_role("button", name="Apply suggested mapping").wait_for()
+    for column, joint in {"shoulder_pos": "1", "elbow_pos": "2", "elbow_torque": "2"}.items():
+        assert page.get_by_label(f"Joint of {column}").input_value() == joint
+
+
 def test_channels_of_a_motor_are_read_with_the_gear_that_is_entered_for_each_joint(look, service, tmp_path):
     gears = np.array([50.0, 80.0])
     time, position, torque = columns(seconds=4.0)

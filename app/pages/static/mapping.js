@@ -11,7 +11,10 @@ const PROFILES = {
   "ur-rtde": "Universal Robots, RTDE",
   franka: "Franka, libfranka",
   "ros-jointstate": "ROS, JointState",
+  rostopic: "ROS, rostopic echo -p",
   lerobot: "LeRobot",
+  "kuka-fri": "KUKA, FRI (pyfri)",
+  "kinova-kortex": "Kinova, Kortex",
   "abb-test-signal-viewer": "ABB, Test Signal Viewer",
 };
 const DRIVE_GAIN =
@@ -37,6 +40,14 @@ function rolesIn(mapping, columns) {
     ),
   );
   return columns.map((name) => channels.get(name) ?? "");
+}
+
+/** Give each column the joint, from 1, that a mapping has it for. */
+function jointsIn(mapping, columns) {
+  const joints = new Map(
+    Object.values(mapping).flatMap((request) => (request?.columns ?? []).map((name, index) => [name, index + 1])),
+  );
+  return columns.map((name) => joints.get(name) ?? null);
 }
 
 /** Show a mapping that the names of the columns suggest, to be confirmed. */
@@ -84,7 +95,7 @@ function suggestion(mapping, finished) {
 export function mappingForm(container, { columns, readings, suggested = [], finished }) {
   const told = rolesIn(suggested[0] ?? {}, columns);
   const roles = told.some(Boolean) ? told : likelyRoles(columns);
-  const joints = columns.map(() => null);
+  const joints = jointsIn(suggested[0] ?? {}, columns);
   const units = {};
   const scales = {};
   const unitsOf = columns.map(() => "");

@@ -28,7 +28,7 @@ def print_diagnosis(console: Console, result: Document) -> None:
     for number, finding in enumerate(findings, start=1):
         console.print(f"\n[bold]{number}. {escape(finding['statement'])}.[/]")
         for line in reasons(finding, band):
-            console.print(Padding(escape(line), (0, 0, 0, 3)))
+            console.print(Padding(escape(line), (0, 0, 0, 3), expand=False))
     if diagnosis["gain"]:
         title = "Error on held-out data, before and after the correction"
         console.print()

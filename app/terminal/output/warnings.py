@@ -16,8 +16,8 @@ def print_warnings(console: Console, result: Mapping[str, Any]) -> None:
         for heading, sentences in one.conflicts:
             console.print(f"[bold red]{escape(heading)}[/]")
             for sentence in sentences:
-                console.print(Padding(escape(sentence), (0, 0, 0, 3)))
-        console.print(Padding(f"{escape(one.applied)} Correction to paste:", (0, 0, 0, 3)))
+                console.print(Padding(escape(sentence), (0, 0, 0, 3), expand=False))
+        console.print(Padding(f"{escape(one.applied)} Correction to paste:", (0, 0, 0, 3), expand=False))
         console.print(one.correction, markup=False, highlight=False, soft_wrap=True)
         console.print()
     for warning in other_warnings(result):
