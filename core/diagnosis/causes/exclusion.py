@@ -20,7 +20,7 @@ class Exclusion:
 
 
 GENERAL: tuple[str, ...] = (
-    "its torque exceeds all of its joint's torque: another column cancels it where the motion leaves it open",
+    "its torque, but for friction and offset, exceeds its joint's: another column cancels what is left open",
     "none of its numbers exceeds its own standard deviation",
     "its size is open beyond the largest there can be, as a vertical first joint's zero: no torque has it",
     "its sign or size is one of those below",
