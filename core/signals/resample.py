@@ -12,31 +12,19 @@ from scipy.interpolate import CubicSpline
 
 from ..arrays import Instants, InstantSeries, JointSeries, JointVector, SampleMask, Samples
 from ..log.model import STANDING_ROWS, LogRows, repeated_rows, rows_at
+from .clock import is_even
 from .derivative import absurd_reach, continued, median, without_absurd
 
 MEDIAN_ORDER = 5
 """Of the median from which a spike's distance is measured, as when the log's spikes were found."""
-UNIFORM_TOLERANCE = 1e-3
-"""Stamps that deviate from a uniform clock by less than a thousandth of a step are uniform."""
-
-
-def is_uniform(time: Samples, rate_hz: float) -> bool:
-    """Tell whether stamps (s) lie on a uniform clock.
-
-    Examples
-    --------
-    >>> is_uniform(np.array([0.0, 0.01, 0.02]), 100.0), is_uniform(np.array([0.0, 0.013, 0.02]), 100.0)
-    (True, False)
-    """
-    grid = time[0] + np.arange(len(time)) / rate_hz
-    return bool(np.max(np.abs(time - grid)) * rate_hz < UNIFORM_TOLERANCE)
 
 
 def uniform_positions(rows: LogRows, rate_hz: float, median_order: int) -> JointSeries:
     """Give the positions on a uniform clock that starts at the first stamp, without absurd samples."""
-    even = is_uniform(rows.time, rate_hz)
+    plausible = without_spikes(rows.position, median_order)
+    even = is_even(rows.time, plausible, rate_hz)
     if even and not dropped_mask(rows).any():
-        return without_spikes(rows.position, median_order)
+        return plausible
     count = int((rows.time[-1] - rows.time[0]) * rate_hz + 1e-6) + 1
     grid = rows.time if even else rows.time[0] + np.arange(count) / rate_hz
     return positions_on(grid, rows, median_order)

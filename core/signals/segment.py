@@ -15,6 +15,7 @@ from scipy.signal import oaconvolve
 from ..arrays import Instants, InstantSeries, JointMask, JointSeries, JointVector, Matrix, SampleMask, Samples
 from ..log.defects.clock import GAP_STEPS, longest_bridge
 from ..log.model import JointLog, LogRows
+from .clock import ROWS, is_even
 from .derivative import REACH, absurd_reach, differentiate
 from .parallel import ParallelFilter, Tile
 from .recipe import Recipe, is_usable
@@ -22,7 +23,6 @@ from .resample import (
     dropped_mask,
     efforts_on,
     gap_mask,
-    is_uniform,
     linear,
     plausible_effort,
     positions_on,
@@ -247,12 +247,13 @@ def gap_free(
     """
     start, stop = span
     stamps = np.concatenate(
-        [log.source.rows(row, min(row + 65536, stop)).time for row in range(start, stop, 65536)]
+        [log.source.rows(row, min(row + ROWS, stop)).time for row in range(start, stop, ROWS)]
     )
     if not is_usable(stop - start, float(stamps[-1] - stamps[0]), log.rate_hz):
         return None
     rate = (len(stamps) - 1) / (stamps[-1] - stamps[0])
-    even = is_uniform(stamps, float(rate))
+    position = without_spikes(log.source.rows(start, min(start + ROWS, stop)).position, recipe.median_order)
+    even = is_even(stamps, position, float(rate))
     shared = np.zeros((0, log.joints)) if motors is None else motors
     return Segment(
         log, recipe, start, float(stamps[0]), float(rate), len(stamps), None if even else stamps, shared

@@ -149,7 +149,7 @@ class Clock:
         statement = (
             f"Steps vary by {deviation * 1e3:.3g} ms (standard deviation) about the median of "
             f"{step * 1e3:.4g} ms, the longest is {self._largest * 1e3:.4g} ms; "
-            "the stamps are used as they are."
+            "they are used unless the positions show that the samples were taken evenly."
         )
         return [Defect("jitter", "time", None, self._uneven.rows, self._uneven.intervals, statement)]
 

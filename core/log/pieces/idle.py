@@ -73,5 +73,5 @@ def _blank(rows: LogRows) -> SampleMask:
             continue  # an end's, or a standstill
         if np.all(np.diff(rows.time[start - 1 : stop + 1]) >= 0.0):  # else the end of a run
             nearest = np.minimum(np.abs(rows.position[start - 1]), np.abs(rows.position[stop]))
-            marks[start:stop] = np.any(nearest > JUMP_FACTOR * usual * (stop - start))
+            marks[start:stop] = np.any(nearest > JUMP_FACTOR * usual)
     return marks

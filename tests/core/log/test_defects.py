@@ -78,7 +78,7 @@ def test_jitter_is_stated_with_its_size_and_without_alarm():
     (jitter,) = only(log_of(shaken, position, torque), "jitter")
     steps = np.diff(shaken)
     assert f"{1e3 * steps.std():.3g} ms (standard deviation)" in jitter.statement
-    assert jitter.statement.endswith("the stamps are used as they are.")
+    assert jitter.statement.endswith("unless the positions show that the samples were taken evenly.")
     assert jitter.count == pytest.approx(np.sum(abs(steps - 0.004) > 0.0004), rel=0.05)
 
 

@@ -5,7 +5,8 @@ import pytest
 
 from tests.core.signals.motions import jittered
 from veritorque.core.log.model import LogRows
-from veritorque.core.signals.resample import efforts_on, is_uniform, positions_on, uniform_positions
+from veritorque.core.signals.clock import is_uniform
+from veritorque.core.signals.resample import efforts_on, positions_on, uniform_positions
 
 NO_LIMITS = np.full(1, np.inf)
 
