@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from scipy.linalg import LinAlgError
 
 from ...arrays import JointSeries, Samples
 from ...numerics.oscillator import swing
@@ -75,10 +74,7 @@ def _followed(pull: Samples, step: float, squares: Samples, decays: Samples) -> 
     holds it.
     """
     at_once = pull / squares
-    try:
-        swinging = swing(pull, step, squares, decays)
-    except LinAlgError:
-        return np.asarray(at_once)
+    swinging = swing(pull, step, squares, decays)
     is_bounded = np.max(np.abs(swinging)) <= MOST_SWING * np.max(np.abs(at_once))  # never where one is NaN
     return swinging if is_bounded else np.asarray(at_once)
 
