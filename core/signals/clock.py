@@ -13,8 +13,9 @@ from ..arrays import Samples, Vector
 Motion = Float[np.ndarray, "rows joints"]
 UNIFORM_TOLERANCE = 1e-3
 """Stamps that deviate from a uniform clock by less than a thousandth of a step are uniform."""
-COMPLETE = 1.0
-"""Rows are complete whose stamps lie within so many steps of an even clock: none was left out."""
+NEAR, WINDOW, SHIFT = 1.0, 25, 0.5
+"""Rows are complete whose stamps lie within so many steps of an even clock, and whose means over so many rows
+differ from those of the next by less than so many steps: a row that was left out shifts them by one."""
 HALFWAY, DEVIATIONS = 0.5, 3.0
 """The clock is even where positions follow less than half of the scatter, by so many standard deviations."""
 OUTLYING = 4.0
@@ -56,7 +57,7 @@ def is_even(time: Samples, position: Motion, rate_hz: float) -> bool:
     if is_uniform(time, rate_hz):
         return True
     scatter, step = _scatter(time)
-    if np.max(np.abs(scatter)) > COMPLETE * step:
+    if not _is_complete(scatter / step):
         return False
     first = position[:ROWS]
     share, deviation = _followed(first, scatter[: len(first)], step)
@@ -68,6 +69,14 @@ def _scatter(time: Samples) -> tuple[Vector, float]:
     number = np.arange(len(time)) - 0.5 * (len(time) - 1)
     step = float(number @ time / (number @ number)) if len(time) > 1 else 1.0
     return time - time.mean() - step * number, step
+
+
+def _is_complete(scatter: Vector) -> bool:
+    """Tell whether no row was left out, by how far the stamps lie from an even clock, in steps."""
+    sums = np.concatenate([[0.0], np.cumsum(scatter)])
+    means = (sums[WINDOW:] - sums[:-WINDOW]) / WINDOW
+    shifts = np.abs(means[WINDOW:] - means[:-WINDOW])
+    return bool(np.max(np.abs(scatter)) <= NEAR and np.max(shifts, initial=0.0) < SHIFT)
 
 
 def _followed(position: Motion, scatter: Vector, step: float) -> tuple[float, float]:

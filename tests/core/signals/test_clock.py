@@ -27,9 +27,11 @@ def test_where_positions_tell_nothing_the_stamps_stand():
     assert not is_even(stamps, SWING.position(0.01 * EVEN) + 100.0 * NOISE, RATE_HZ)
 
 
-def test_rows_that_were_never_recorded_leave_no_even_clock():
-    kept = np.r_[0:2000, 2003:5000]
-    stamps = jittered(np.random.default_rng(2), 5000, RATE_HZ, 0.02)[kept]
+@pytest.mark.parametrize("lost", [1, 3])
+@pytest.mark.parametrize("scatter", [0.02, 0.3])
+def test_rows_that_were_never_recorded_leave_no_even_clock(lost, scatter):
+    kept = np.r_[0:2000, 2000 + lost : 5000]
+    stamps = jittered(np.random.default_rng(2), 5000, RATE_HZ, scatter)[kept]
     assert not is_even(stamps, SWING.position(EVEN[kept]) + NOISE[kept], RATE_HZ)
 
 
