@@ -26,10 +26,11 @@ from .estimate.smoothing import with_smoothed_friction
 from .extension.cure import corrections, extended_base, global_indices, sizes, with_proven
 from .extension.gain import JointGain, gains
 from .extension.measure import measure_gains
+from .extension.reserved import reserved
 from .extension.result import Extension
 from .extension.verification import verify
 from .identification.admission import admit, known_log
-from .identification.doubts import contradictions, has_impossible_joint
+from .identification.doubts import contradictions
 from .identification.identify import Fit, Progress, fit, judge
 from .identification.options import REPORT, IdentifyOptions, parse_diagnose_options, parse_options
 from .identification.reference import PRIOR, Reference, reference_from_prior
@@ -223,23 +224,15 @@ def _explain(settled: _Settled, reference: Reference | None, tell: Progress) -> 
     as_it_is = None if reference is None else score_reference(reference, before, parts)
     without = Extension(before, found, None, (), None, "no finding entered the model", as_it_is)
     if not corrections(found):
-        return _reserved(without)
+        return reserved(without)
     try:
         extended = proof or fit(_extend(found, plain), options, last)
         after = judge(task.asked.logs, options, extended, last, task.asked.mapper)
     except SolverError as error:  # what was found stands, whether or not the correction can be computed
         note = f"the extended model could not be identified: {error.cause}"
-        return _reserved(replace(without, motion_note=note))
+        return reserved(replace(without, motion_note=note))
     tell("simulate", 0.95)
-    return _reserved(measure_gains(without, after, problem))
-
-
-def _reserved(extension: Extension) -> Extension:
-    """Claim no more than is allowed beside a disagreement where the last model fails by its consistency."""
-    if not has_impossible_joint(extension.after or extension.before):
-        return extension
-    found = with_reservations(extension.diagnosis, open_conflict=True, doubted=True)
-    return replace(extension, diagnosis=found)
+    return reserved(measure_gains(without, after, problem))
 
 
 def _extend(found: Diagnosis, problem: Problem) -> Problem:

@@ -8,8 +8,6 @@ import numpy as np
 
 from ..arrays import JointVector, Mask
 from ..estimate.plausibility import DENSEST
-from ..log.model import Defect
-from ..regressor.block import Block
 from ..robot.extent import Extent
 from ..validation.quality import quality
 from .result import Identification
@@ -144,29 +142,11 @@ def _held_out(found: Identification) -> list[str]:
     fitted, held_out = found.fit_total_percent, found.validation_total_percent
     if not found.validation or held_out <= HELD_OUT_OVER_FITTED * fitted:
         return []
-    joints = _joints_with_held_out_outliers(found)
-    outliers = f"it has torque outliers (joint {joints}), or " if joints else ""
     sentence = (
         f"The error on held-out data ({held_out:.3g} %) is {held_out / fitted:.3g} times the error on fitted "
-        f"data ({fitted:.3g} %): {outliers}the held-out motion may excite what the fitted motion does not"
+        f"data ({fitted:.3g} %): the held-out motion may excite what the fitted motion does not"
     )
     return [sentence]
-
-
-def _joints_with_held_out_outliers(found: Identification) -> str:
-    """Name the joints whose torque has outliers in held-out blocks."""
-    joints = {
-        defect.joint
-        for block in found.observation.blocks
-        if (block.log, block.number) in found.held_out
-        for defect in found.logs[block.log].defects
-        if (defect.kind, defect.channel) == ("outliers", "torque") and _overlaps(defect, block)
-    }
-    return ", ".join(map(str, sorted(filter(None, joints))))
-
-
-def _overlaps(defect: Defect, block: Block) -> bool:
-    return any(start <= block.end and end >= block.start for start, end in defect.intervals)
 
 
 def _not_excited(found: Identification) -> list[str]:

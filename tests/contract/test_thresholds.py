@@ -54,10 +54,12 @@ NAMED = {
     "effort": {
         "bandwidth": "_SAMPLES",
         "causes/dropped_samples": "ROWS",
+        "checks/clipped_channel": "ROWS",
         "checks/gain": "DRAWS",
         "dataset/dataset": "BATCH",
     },
     "figure": {
+        "causes/exclusion": "EXCLUSIONS",
         "causes/link_parameters": "LISTED",
         "checks/figure": "BINS EXPLAINED",
         "residual/atlas": "BINS FEWEST_IN_BIN _RIDGE",
@@ -71,6 +73,7 @@ A grid discretises what is refined afterwards; numerics are tolerances, orders a
 effort only costs time or memory; a figure only shows and decides nothing.
 """
 UNNAMED = {
+    "causes/dropped_samples": {"0.01": "per cent"},
     "causes/external_contact": {"3": "a force has three components"},
     "causes/torque_gain_nonlinear": {"3.0": "root of a cubic", "1.5": "root of a cubic"},
     "checks/confidence": {"4": "digits in a file"},

@@ -26,7 +26,9 @@ class EncoderEccentricity(OwnJointCause, CorrectsLog):
     experiment = "fast motion through as much of a revolution as the joint's range allows"
     coordinate = "position"
     traits = SearchTraits(
-        linearisation_error=LINEARISATION.eccentricity, largest=ADMISSIBLE.encoder_eccentricity
+        linearisation_error=LINEARISATION.eccentricity,
+        largest=ADMISSIBLE.encoder_eccentricity,
+        represented=ADMISSIBLE.eccentricity_represented,
     )
     revolute_only = True
 

@@ -76,7 +76,7 @@ EXCLUSIONS: tuple[Exclusion, ...] = (
     Exclusion(
         "torque_saturation",
         f"the torque that the motion shows exceeds the limit by more than "
-        f"{100.0 * ADMISSIBLE.saturation_error:g} %",
+        f"{100.0 * ADMISSIBLE.saturation_excess:g} %",
         "a drive at its limit applies the limit, and the motion shows what was applied",
     ),
     Exclusion("torque_saturation", "the command is below the torque applied", "a limit only takes away"),
@@ -97,7 +97,8 @@ EXCLUSIONS: tuple[Exclusion, ...] = (
     ),
     Exclusion(
         "encoder_eccentricity",
-        f"the amplitude exceeds {ADMISSIBLE.encoder_eccentricity:g} rad",
+        f"the amplitude exceeds {ADMISSIBLE.encoder_eccentricity:g} rad, nor surely where it exceeds "
+        f"{ADMISSIBLE.eccentricity_represented:g} rad",
         "its first order errs by half of it, and a disc so far off its axis could not be read",
     ),
     Exclusion(

@@ -125,6 +125,8 @@ class SearchTraits:
     largest: float = np.inf
     """Largest size of its linear parameters that a robot can have. A log that leaves all of them open beyond
     it cannot show the cause."""
+    represented: float = np.inf
+    """Largest size that columns of first order represent. Beyond it a finding is doubtful."""
     least_clear: float = 0.0
     """Share of its squared columns that the model must leave: for causes that a joint's own parameters absorb
     but for what other joints know."""

@@ -45,7 +45,7 @@ class TorqueSaturation(OwnJointCause):
         """Refuse a limit that the motion exceeds: while a drive is limited it applies the limit."""
         applied = np.abs(at.operating_point.applied(at.dataset.state)[:, at.joint - 1])
         reached = float(np.quantile(applied, ADMISSIBLE.saturation_quantile))
-        return reached > (1.0 + ADMISSIBLE.saturation_error) * solved.scalars["limit"]
+        return reached > (1.0 + ADMISSIBLE.saturation_excess) * solved.scalars["limit"]
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the limit, which is no more certain than the predicted torque that it clips."""

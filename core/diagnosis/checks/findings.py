@@ -46,6 +46,7 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
     log_p = log_p_of(fitter, chosen, index, own.statistic)
     margin = min(own.margin, own.over_unnamed, own.statistic - unnamed)
     evidence = predictors(own.statistic, margin, measured)
+    doubtful = own.margin < 0.0 or np.linalg.norm(solved.values) > cause.traits.represented
     return Finding(
         cause=cause.id,
         title=cause.title,
@@ -53,7 +54,7 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
         cure=cause.cure,
         statement=cause.statement(solved),
         quantities=cause.quantities(solved),
-        confidence=confidence(evidence) if own.margin >= 0.0 else min(confidence(evidence), SIZE.doubtful),
+        confidence=min(confidence(evidence), SIZE.doubtful) if doubtful else confidence(evidence),
         predictors=evidence,
         p_value=float(np.exp(log_p)),
         explained_fraction=_fraction(left, dataset.usable & ~dataset.held_out[:, None], joints),

@@ -9,9 +9,11 @@ class Admissible:
 
     encoder_offset: float = 0.5
     """Radians (metres) of an encoder offset: beyond, the table belongs to another robot."""
-    encoder_eccentricity: float = 0.2
-    """Radians, amplitude of an encoder's eccentricity. Source: what the first order of an angle's error omits
-    is half of the error, and its columns are good to a tenth."""
+    encoder_eccentricity: float = 0.3
+    """Radians, amplitude of an encoder's eccentricity. Set by hand."""
+    eccentricity_represented: float = 0.2
+    """Radians of the same above which a finding is doubtful. Source: what the first order of an angle's error
+    omits is half of the error, and its columns are good to a tenth; one of 0.18 is found at 0.28."""
     kinematic_error: float = 0.3
     """Radians or metres of an error in the kinematic table."""
     gravity_tilt: float = 0.5
@@ -61,6 +63,9 @@ class Admissible:
     saturation_error: float = 0.03
     """Relative error of the largest predicted torques, which a torque limit is known to. On nine simulated
     logs with a limit they exceeded it by 0.6 to 2.5 %."""
+    saturation_excess: float = 0.25
+    """Relative excess of the largest predicted torques beyond which a torque limit is none. Set by hand: a
+    true limit beside jitter and heavy noise was exceeded by 15 %, a false one by 106 %."""
     saturation_quantile: float = 0.999
     """Quantile of the predicted torques that counts as the largest."""
 

@@ -49,7 +49,7 @@ class EncoderEccentricity(Effect):
     parameters = ("amplitude", "phase")
     units: ClassVar = {"amplitude": "rad", "phase": "rad"}
     sizes = ("amplitude",)
-    largest = 0.2
+    largest = 0.3
 
     @classmethod
     def draw(cls, rng: np.random.Generator, arm: Arm, steering: Steering) -> Self:

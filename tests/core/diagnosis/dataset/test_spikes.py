@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.core.diagnosis.scenes import ARM_RATE_HZ, look_at_arm, measured_arm
-from veritorque.core.diagnosis.dataset.spikes import has_spike, without_spikes
+from veritorque.core.diagnosis.dataset.spikes import has_spike
 
 SPAN = (6.0, 6.8)
 
@@ -42,14 +42,3 @@ def nothing(count):
 @pytest.mark.parametrize(("disturbed", "expected"), [(one_sample, True), (push, False), (nothing, False)])
 def test_only_a_sample_that_stands_out_is_a_spike(disturbed, noise, expected):
     assert has_spike(look_with(disturbed, noise).motions[0].log, SPAN) is expected
-
-
-def test_without_spikes_a_series_is_what_it_was_but_for_their_samples():
-    rng = np.random.default_rng(3)
-    clean = np.sin(np.arange(2000)[:, None] / 60.0 + np.arange(3)) + normal(rng, (2000, 3))
-    spoilt = clean.copy()
-    where = rng.choice(np.arange(10, 1990, 10), 20, replace=False)
-    spoilt[where, 1] += 500.0
-    mended = without_spikes(spoilt)
-    np.testing.assert_array_equal(np.delete(mended, where, axis=0), np.delete(clean, where, axis=0))
-    assert np.abs(mended - clean).max() < 0.5

@@ -1,0 +1,15 @@
+"""Claim no more than is allowed beside a model that only impossible bodies would let follow the log."""
+
+from dataclasses import replace
+
+from ..diagnosis.reservations import with_reservations
+from ..identification.doubts import has_impossible_joint
+from .result import Extension
+
+
+def reserved(extension: Extension) -> Extension:
+    """Limit what is found where the last model, extended or not, fails by its consistency."""
+    if not has_impossible_joint(extension.after or extension.before):
+        return extension
+    found = with_reservations(extension.diagnosis, open_conflict=True, doubted=True)
+    return replace(extension, diagnosis=found)
