@@ -115,13 +115,21 @@ class Supervisor:
                 process.kill()
 
     def _listen(self, process: "subprocess.Popen[bytes]") -> None:
-        for line in process.stdout or ():
+        for line in _said(process):
             self._last_word = time.monotonic()
             word, _, content = line.strip().partition(b" ")
             if word == READY:
                 self.ready.set()
             elif word == ENDED and self._on_ended is not None:
                 self._on_ended(Ended(**json.loads(content)))
+
+
+def _said(process: "subprocess.Popen[bytes]") -> Iterator[bytes]:
+    """Read what a worker says until it ends, or until its pipe is closed beneath the reader."""
+    try:
+        yield from process.stdout or ()
+    except ValueError:  # what Python says of a file that another thread closes meanwhile
+        return
 
 
 def start_worker(settings: Settings) -> "subprocess.Popen[bytes]":
