@@ -51,7 +51,12 @@ def _stands_out(steps: JointVector, joint: int, prismatic: Mask) -> bool:
 
 
 def _matters(share: float, of_torque: float, *, stands_out: bool) -> bool:
-    """Tell whether rounding is reported, by its largest shares of a residual and of a torque."""
+    """Tell whether rounding is reported, by its largest shares of a residual and of a torque.
+
+    None makes more than all of a torque: then parameters that the motion leaves open do.
+    """
+    if of_torque > 1.0:
+        return False
     if stands_out and of_torque > SAMPLE_CHECKS.coarse_of_torque:
         return True
     return of_torque > SAMPLE_CHECKS.rounding_of_torque and share > (
@@ -60,9 +65,10 @@ def _matters(share: float, of_torque: float, *, stands_out: bool) -> bool:
 
 
 def _of_torque(dataset: Dataset, gained: JointSeries) -> JointVector:
-    """Give the RMS of an error over the torque's, per joint."""
-    sizes = [np.sqrt(np.mean(torque**2, axis=0)) for torque in (gained, dataset.torque)]
-    return np.asarray(sizes[0] / np.maximum(sizes[1], 1e-300))
+    """Give the RMS of an error over the torque's, per joint; none where no torque was measured."""
+    error, torque = (np.sqrt(np.mean(series**2, axis=0)) for series in (gained, dataset.torque))
+    measured = dataset.usable.any(axis=0) & (torque > 0.0)
+    return np.asarray(np.divide(error, torque, out=np.zeros_like(error), where=measured))
 
 
 def _finding(
