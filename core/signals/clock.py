@@ -2,7 +2,7 @@
 
 A recorder that stamps a message when it arrives scatters the stamps of samples that a controller took evenly.
 Positions tell: what they deviate from a smooth motion, row by row, follows velocity times the scatter where
-the samples were taken at their stamps, and knows nothing of it where they were not.
+the samples were taken at their stamps, and is independent of it where they were not.
 """
 
 import numpy as np

@@ -17,6 +17,7 @@ from pathlib import Path
 from tests.answers.compare import Compared, Difference, compare
 from tests.answers.kept import keep, kept, names
 from tests.answers.work import QUICK, Answer, answered, asks
+from tests.saying import say
 
 FOLDER = Path(__file__).parents[2] / ".answers"
 SHOWN = 8
@@ -51,7 +52,7 @@ def _answers(listed: list[str]) -> Iterator[Answer]:
         for done in as_completed([pool.submit(answered, name) for name in listed]):
             answer = done.result()
             if answer.document is None:
-                _say(f"{answer.name}: SKIPPED, {answer.missing}")
+                say(f"{answer.name}: SKIPPED, {answer.missing}")
             yield answer
 
 
@@ -62,9 +63,9 @@ def _record(folder: Path, listed: list[str]) -> int:
         if answer.document is not None:
             keep(folder, answer.name, answer.document)
             count += 1
-            _say(f"{answer.name}: kept{_refused(answer)} ({answer.seconds:.1f} s)")
+            say(f"{answer.name}: kept{_refused(answer)} ({answer.seconds:.1f} s)")
     left = len(listed) - count
-    _say(
+    say(
         f"{count} answers kept in {folder}, {left} skipped; "
         f"{seconds:.0f} s of processors, {time.monotonic() - begun:.0f} s"
     )
@@ -86,18 +87,18 @@ def _compare(folder: Path, listed: list[str], *, whole: bool) -> int:
             skipped += 1
         elif before is None:
             unkept.append(answer.name)
-            _say(f"{answer.name}: NEVER KEPT ({answer.seconds:.1f} s)")
+            say(f"{answer.name}: NEVER KEPT ({answer.seconds:.1f} s)")
         else:
             found[answer.name] = compare(before, answer.document)
             _tell(answer, found[answer.name])
     for name in gone:
-        _say(f"{name}: kept, and asked no more")
+        say(f"{name}: kept, and asked no more")
     _tell_texts(found)
     failures = sum(len(one.failures) for one in found.values())
     texts = sum(len(one.texts) for one in found.values())
     good = not (failures or gone or unkept) and bool(found)
     differing = sum(bool(one.failures) for one in found.values())
-    _say(
+    say(
         f"{len(found)} answers, {sum(one.numbers for one in found.values())} numbers and "
         f"{sum(one.strings for one in found.values())} strings compared: "
         + ("all equal" if good else f"{failures} differences in {differing} answers")
@@ -112,15 +113,15 @@ def _tell(answer: Answer, found: Compared) -> None:
     """Print one line for an answer, and its differences below."""
     texts = f", {len(found.texts)} texts reworded" if found.texts else ""
     verdict = f"{len(found.failures)} DIFFERENCES" if found.failures else "equal"
-    _say(f"{answer.name}: {verdict}{texts} ({answer.seconds:.1f} s)")
+    say(f"{answer.name}: {verdict}{texts} ({answer.seconds:.1f} s)")
     for one in found.failures[:SHOWN]:
-        _say(f"    {_shown(one)}")
+        say(f"    {_shown(one)}")
     if len(found.failures) > SHOWN:
-        _say(f"    and {len(found.failures) - SHOWN} more")
+        say(f"    and {len(found.failures) - SHOWN} more")
     sized = [one for one in found.failures if one.ulps]
     if sized:
         worst = max(sized, key=lambda one: one.relative)
-        _say(f"    largest of numbers: {worst.relative:.1e} relative, {worst.ulps:.0f} ulps at {worst.path}")
+        say(f"    largest of numbers: {worst.relative:.1e} relative, {worst.ulps:.0f} ulps at {worst.path}")
 
 
 def _shown(one: Difference) -> str:
@@ -133,12 +134,7 @@ def _tell_texts(found: dict[str, Compared]) -> None:
     texts = [one for compared in found.values() for one in compared.texts]
     examples = {one.group: one for one in reversed(texts)}
     for group, count in Counter(one.group for one in texts).most_common():
-        _say(f"text {group}: {count} reworded\n    - {examples[group].before}\n    + {examples[group].now}")
-
-
-def _say(line: str) -> None:
-    sys.stdout.write(line + "\n")
-    sys.stdout.flush()
+        say(f"text {group}: {count} reworded\n    - {examples[group].before}\n    + {examples[group].now}")
 
 
 if __name__ == "__main__":

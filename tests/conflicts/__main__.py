@@ -14,6 +14,7 @@ from tests.conflicts.score import Answer, answer, mean_percent
 from tests.conflicts.spoil import SPOILERS
 from tests.measured import measured_log, measured_robot
 from tests.plant.cases import draw_clean
+from tests.saying import say
 from tests.tools import SHARED
 from veritorque.core.log.model import JointLog
 from veritorque.core.log.reader import read_log
@@ -49,7 +50,7 @@ def main(arguments: Sequence[str]) -> int:
                 totals[way].append(found)
                 mark = "ok " if found.exact else ("   " if not found.matters else "-- ")
                 hidden = f"{way} {list(spoilt.joints)} {spoilt.channel}"
-                _say(
+                say(
                     f"{mark}{name:13} {hidden:38} {found.seconds:5.1f} s  "
                     f"{'; '.join(found.named)}{found.failed}"
                 )
@@ -71,26 +72,21 @@ def robots(seed: int) -> Iterator[tuple[str, RobotModel, JointLog]]:
 
 
 def _table(totals: dict[str, list[Answer]]) -> None:
-    _say(f"\n{'spoilt':20} {'drawn':>6} {'matter':>7} {'named':>6} {'share':>7}")
+    say(f"\n{'spoilt':20} {'drawn':>6} {'matter':>7} {'named':>6} {'share':>7}")
     matter = named = 0
     for way, answers in totals.items():
         counted = [one for one in answers if one.matters or way == "nothing"]
         right = sum(one.exact for one in counted)
         share = f"{100.0 * right / len(counted):6.0f}%" if counted else ""
-        _say(f"{way:20} {len(answers):6} {len(counted):7} {right:6} {share}")
+        say(f"{way:20} {len(answers):6} {len(counted):7} {right:6} {share}")
         if way != "nothing":
             matter, named = matter + len(counted), named + right
-    _say(f"{'all that was spoilt':20} {'':6} {matter:7} {named:6} {100.0 * named / max(matter, 1):6.0f}%")
+    say(f"{'all that was spoilt':20} {'':6} {matter:7} {named:6} {100.0 * named / max(matter, 1):6.0f}%")
     silent = [
         one for way, answers in totals.items() for one in answers if not one.matters and way != "nothing"
     ]
     wrong = sum(bool(one.named) and not one.exact for one in silent)
-    _say(f"of {len(silent)} that change the error by less than a fifth, {wrong} are named wrongly")
-
-
-def _say(text: str) -> None:
-    sys.stdout.write(f"{text}\n")
-    sys.stdout.flush()
+    say(f"of {len(silent)} that change the error by less than a fifth, {wrong} are named wrongly")
 
 
 if __name__ == "__main__":

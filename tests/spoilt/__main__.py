@@ -10,6 +10,7 @@ from functools import partial
 from multiprocessing import get_context
 
 from tests.hidden.score import rate
+from tests.saying import say
 from tests.spoilt.campaign import CONFIDENT, Outcome, outcome
 from tests.spoilt.ways import WAYS
 
@@ -32,7 +33,7 @@ def main(arguments: Sequence[str]) -> int:
             outcomes.append(one)
             _tell(one)
     _tables(outcomes)
-    _say(f"{len(outcomes)} logs in {time.monotonic() - begun:.0f} s")
+    say(f"{len(outcomes)} logs in {time.monotonic() - begun:.0f} s")
     wrong = sum(one.is_wrong for one in outcomes)
     return int(wrong > LARGEST_SHARE * len(outcomes) or any(one.failed for one in outcomes))
 
@@ -42,7 +43,7 @@ def _tell(one: Outcome) -> None:
     said += [f"{cause} at {sure:.2f}" for cause, sure in one.false if sure > 0.5]
     if said:
         beside = f" (conflicts {', '.join(one.conflicts)})" if one.conflicts else ""
-        _say(f"{one.number} {one.log}, {' + '.join(one.ways)}: {'; '.join(said)}{beside}")
+        say(f"{one.number} {one.log}, {' + '.join(one.ways)}: {'; '.join(said)}{beside}")
 
 
 def _tables(outcomes: Sequence[Outcome]) -> None:
@@ -50,27 +51,22 @@ def _tables(outcomes: Sequence[Outcome]) -> None:
     for one in outcomes:
         for way in one.ways:
             by_way[way].append(one)
-    _say(f"\n{'spoilt by':20} {'logs':>5} {'refused':>8} {'conflict':>9} {'false':>6} {'confident':>10}")
+    say(f"\n{'spoilt by':20} {'logs':>5} {'refused':>8} {'conflict':>9} {'false':>6} {'confident':>10}")
     for way in WAYS:
         mine = by_way[way]
         counts = (
             len(mine), sum(bool(one.refused) for one in mine), sum(bool(one.conflicts) for one in mine),
             sum(bool(one.false) for one in mine), sum(one.is_wrong for one in mine),
         )  # fmt: skip  # a table
-        _say(f"{way:20} {counts[0]:5} {counts[1]:8} {counts[2]:9} {counts[3]:6} {counts[4]:10}")
+        say(f"{way:20} {counts[0]:5} {counts[1]:8} {counts[2]:9} {counts[3]:6} {counts[4]:10}")
     refusals: dict[str, int] = defaultdict(int)
     for one in outcomes:
         refusals[one.refused.partition("\n")[0][:100]] += bool(one.refused)
     for text, times in sorted(refusals.items(), key=lambda pair: -pair[1]):
         if times:
-            _say(f"{times:5} refused: {text}")
-    _say(f"a false cause above {CONFIDENT:g}: {rate(one.is_wrong for one in outcomes)}")
-    _say(f"errors of no type of ours: {rate(bool(one.failed) for one in outcomes)}")
-
-
-def _say(text: str) -> None:
-    sys.stdout.write(f"{text}\n")
-    sys.stdout.flush()
+            say(f"{times:5} refused: {text}")
+    say(f"a false cause above {CONFIDENT:g}: {rate(one.is_wrong for one in outcomes)}")
+    say(f"errors of no type of ours: {rate(bool(one.failed) for one in outcomes)}")
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 
+from tests.saying import say
 from tests.tools import SHARED
 from tests.truths.cases import cases, sources
 from tests.truths.score import CONFIDENT, NAMED, answer, sound
@@ -21,14 +22,14 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--sound", action="store_true", help="diagnose the unchanged logs alone")
     asked = parser.parse_args(arguments)
     if not (SHARED / "data").exists():
-        _say(f"SKIPPED FOR WANT OF DATA: {SHARED / 'data'} is not there")
+        say(f"SKIPPED FOR WANT OF DATA: {SHARED / 'data'} is not there")
         return 0
     if not asked.sound:
         _ask_all(asked.seed, asked.only)
         return 0
     for name, source in sources().items():
         if asked.only in name:
-            _say(f"{name}: {'; '.join(one.text for one in sound(name, source)[0]) or 'nothing'}")
+            say(f"{name}: {'; '.join(one.text for one in sound(name, source)[0]) or 'nothing'}")
     return 0
 
 
@@ -44,17 +45,12 @@ def _ask_all(seed: int, only: str) -> None:
         wrong = f"  WRONG {len(found.wrong)}" if found.wrong else ""
         names = "; ".join(one.text for one in found.names) or "nothing"
         head = f"{mark}{found.probability:.2f} {case.asked.name}: {case.name}{wrong}"
-        _say(f"{head} | {denied}{found.verdict} {found.seconds:.0f} s | {names}")
+        say(f"{head} | {denied}{found.verdict} {found.seconds:.0f} s | {names}")
     if answers:
         mean = sum(one.probability for one in answers) / len(answers)
-        _say(f"\nnamed {sum(one.probability >= NAMED for one in answers)} of {len(answers)}")
-        _say(f"mean probability on the truth {mean:.2f}")
-        _say(f"wrong names above {CONFIDENT:g}: {sum(len(one.wrong) for one in answers)}")
-
-
-def _say(text: str) -> None:
-    sys.stdout.write(f"{text}\n")
-    sys.stdout.flush()
+        say(f"\nnamed {sum(one.probability >= NAMED for one in answers)} of {len(answers)}")
+        say(f"mean probability on the truth {mean:.2f}")
+        say(f"wrong names above {CONFIDENT:g}: {sum(len(one.wrong) for one in answers)}")
 
 
 if __name__ == "__main__":
