@@ -6,8 +6,9 @@ from itertools import takewhile
 from ..identification.identify import Fit
 from ..log.model import JointLog
 from .doubt import has_doubtful_unit, is_doubtful
+from .path import FoundConflict
 from .samples import sampled
-from .search import FoundConflict, find_conflicts
+from .search import find_conflicts
 from .setup import Setup
 from .time_base import stamp_factor
 from .trial import Trials

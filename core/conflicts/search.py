@@ -11,24 +11,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .conflict import Hypothesis
-from .kinds.mounting import Mounting, is_tilt
+from .path import FoundConflict, Path, cost
+from .refinement import refined
 from .registry import CONFLICTS
 from .setup import Setup
-from .thresholds import DECISION, TRIAL
+from .thresholds import DECISION, DOUBT, TRIAL
 from .trial import Equations, Outcome, Trials
-
-
-@dataclass(frozen=True, eq=False)
-class FoundConflict:
-    """Hold a conflict that was found, and what it was compared with."""
-
-    hypothesis: Hypothesis
-    before: Outcome
-    after: Outcome
-    confidence: float
-    """Probability that it, or one of those it cannot be told apart from, is the right correction."""
-    equivalents: tuple[Hypothesis, ...]
-    """Hypotheses of other kinds or joints that predict as well."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,56 +25,11 @@ class _Tried:
     outcome: Outcome
 
 
-Path = tuple[FoundConflict, ...]
-
-
 def find_conflicts(setup: Setup, trials: Trials) -> Path:
     """Search for corrections of a set-up, one after the other; the last one's set-up holds them all."""
     present = trials.outcome(trials.equations(setup))
     path = () if present is None else _path(setup, present, trials, TRIAL.most_corrections)
-    return _with_gravity_refined(path, setup, trials) if len(path) > 1 else path
-
-
-def _with_gravity_refined(path: Path, described: Setup, trials: Trials) -> Path:
-    """Find the direction of gravity anew beside all other corrections: it was found beside what they correct.
-
-    Directions found one after the other are one. If that is a mere tilt of the described one, none is left.
-    """
-    mountings = [place for place, step in enumerate(path) if step.hypothesis.conflict == Mounting.name]
-    if mountings and is_tilt(path[-1].hypothesis.setup.robot.gravity, described.robot.gravity):
-        return _with_gravity(path, described, None, trials)
-    if not mountings or mountings == [len(path) - 1]:
-        return path
-    corrected = path[-1].hypothesis.setup.with_gravity(described.robot.gravity)
-    tried = [
-        _Tried(hypothesis, outcome)
-        for hypothesis in CONFLICTS[Mounting.name].hypotheses(corrected, trials)
-        if (outcome := trials.outcome(trials.equations(hypothesis.setup))) is not None
-    ]
-    if not tried:
-        return path
-    best = min(tried, key=lambda candidate: candidate.outcome.score).hypothesis
-    refined = _with_gravity(path, described, best, trials)
-    return refined if _cost(refined) < _cost(path) else path
-
-
-def _with_gravity(path: Path, described: Setup, mounting: Hypothesis | None, trials: Trials) -> Path:
-    """Put one mounting, or none, in the place of all of a path."""
-    out: list[FoundConflict] = []
-    gravity = described.robot.gravity
-    for step in path:
-        own = step.hypothesis
-        if own.conflict == Mounting.name:
-            if mounting is None:
-                continue
-            own, gravity, mounting = mounting, mounting.setup.robot.gravity, None  # later ones are part of it
-        own = replace(own, setup=step.hypothesis.setup.with_gravity(gravity))
-        after = trials.outcome(trials.equations(own.setup))
-        if after is None:
-            return path
-        before = out[-1].after if out else step.before
-        out.append(replace(step, hypothesis=own, before=before, after=after))
-    return tuple(out)
+    return refined(path, setup, trials)
 
 
 def _path(setup: Setup, present: Outcome, trials: Trials, most: int) -> Path:
@@ -94,36 +37,83 @@ def _path(setup: Setup, present: Outcome, trials: Trials, most: int) -> Path:
 
     Where several predict alike and the first is not all, the search goes on from each of them. Several wrong
     ones may undo each other: a mirrored robot moves under mirrored gravity as the true one does. So
-    paths are compared by their last error, to which each correction adds what one has to gain.
+    paths are compared by their last error, to which each correction adds what one has to gain. Where all of
+    them leave a joint in doubt, the first step may hide the next: the search goes on from the next best.
     """
-    steps = _steps(_bounded(setup, trials), present, trials) if most else ()
+    steps = _steps(_bounded(setup, trials), present, trials) if most else _Steps((), ())
     paths: list[Path] = []
-    for step in steps:
+
+    def go_on(step: FoundConflict) -> None:
         paths.append((step, *_path(step.hypothesis.setup, step.after, trials, most - 1)))
-        if len(paths[0]) == 1:
+
+    for step in steps.best:
+        go_on(step)
+        if len(paths[0]) == 1 and not _is_poor(paths[0]):
             return paths[0]
-    if not paths:
-        return ()
-    undecided, equal = _margins(present, trials)
-    least = min(map(_cost, paths))
-    chosen = next(path for path in paths if _cost(path) <= least + equal)
-    others = (path for path in paths if _corrections(path) != _corrections(chosen))
-    alike = tuple(path[0].hypothesis for path in others if _cost(path) < _cost(chosen) + undecided)
-    return (replace(chosen[0], equivalents=alike), *chosen[1:])
+    for step in steps.others if most == TRIAL.most_corrections else ():
+        if not all(map(_is_poor, paths)):
+            break
+        go_on(step)
+    return _chosen(paths, len(steps.best), _Margins.of(present, trials)) if paths else ()
 
 
-def _cost(path: Path) -> float:
-    return path[-1].after.score + DECISION.least_gain * len(path)
+def _is_poor(path: Path) -> bool:
+    """Tell whether the corrections of a path leave a joint in doubt."""
+    return float(np.max(path[-1].after.errors)) > 0.01 * DOUBT.unexplained_percent
+
+
+def _chosen(paths: list[Path], best: int, margins: "_Margins") -> Path:
+    """Choose the best path, the most usual of those alike, and name the first steps of the undecided ones.
+
+    A first step beyond those that predicted best is as sure as its path is before the others.
+    """
+    least = min(map(cost, paths))
+    place = next(place for place, path in enumerate(paths) if cost(path) <= least + margins.equal)
+    chosen = paths[place]
+    others = [path for path in paths if _corrections(path) != _corrections(chosen)]
+    alike = [path for path in others if cost(path) < cost(chosen) + margins.undecided]
+    confidence = chosen[0].confidence
+    if place >= best:
+        rivals = (margins.likelihood(cost(path) - cost(chosen)) for path in others if path not in alike)
+        confidence = 1.0 / (1.0 + sum(rivals))
+    equivalents = tuple(path[0].hypothesis for path in alike)
+    return (replace(chosen[0], equivalents=equivalents, confidence=confidence), *chosen[1:])
 
 
 def _corrections(path: Path) -> set[str]:
     return {step.hypothesis.statement for step in path}
 
 
-def _margins(present: Outcome, trials: Trials) -> tuple[float, float]:
-    """Give the differences of scores below which two are undecided, and alike."""
-    independent = trials.samples.independent * len(present.errors)
-    return 0.5 * DECISION.undecided / independent, 0.5 * DECISION.equal / independent
+@dataclass(frozen=True)
+class _Margins:
+    """Hold the differences of scores below which two are undecided, and alike."""
+
+    independent: float
+    """Independent values that judge."""
+
+    @classmethod
+    def of(cls, present: Outcome, trials: Trials) -> "_Margins":
+        return cls(trials.samples.independent * len(present.errors))
+
+    @property
+    def undecided(self) -> float:
+        return 0.5 * DECISION.undecided / self.independent
+
+    @property
+    def equal(self) -> float:
+        return 0.5 * DECISION.equal / self.independent
+
+    def likelihood(self, worse: float) -> float:
+        """Give the likelihood of a score that is worse by this, over that of the other."""
+        return float(np.exp(-self.independent * worse))
+
+
+@dataclass(frozen=True, eq=False)
+class _Steps:
+    """Hold first steps: those that predict best, and the next best that lead on as well."""
+
+    best: Path
+    others: Path
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,29 +133,28 @@ def _bounded(setup: Setup, trials: Trials) -> list[_Bounded]:
     return listed
 
 
-def _steps(listed: list[_Bounded], present: Outcome, trials: Trials) -> Path:
+def _steps(listed: list[_Bounded], present: Outcome, trials: Trials) -> _Steps:
     """Give the hypotheses that predict best, first the most usual of those that predict alike."""
-    independent = trials.samples.independent * len(present.errors)
-    undecided, equal = _margins(present, trials)
+    margins = _Margins.of(present, trials)
     tried = _tried(listed, present, trials)
     best = min((candidate.outcome.score for candidate in tried), default=present.score)
-    chance = undecided + np.log(max(len(listed), 1)) / independent
-    if present.score - best < max(DECISION.least_gain, chance):
-        return ()
-    near = [candidate for candidate in tried if candidate.outcome.score < best + undecided]
-    chosen = next(candidate for candidate in near if candidate.outcome.score <= best + equal)
-
-    def likelihood(outcome: Outcome) -> float:
-        return float(np.exp(independent * (best - outcome.score)))
-
-    others = sum(likelihood(candidate.outcome) for candidate in tried if candidate not in near)
-    confidence = 1.0 / (1.0 + others + len(listed) * likelihood(present))
+    chance = margins.undecided + np.log(max(len(listed), 1)) / margins.independent
+    enough = present.score - max(DECISION.least_gain, chance)
+    if best > enough:
+        return _Steps((), ())
+    near = [candidate for candidate in tried if candidate.outcome.score < best + margins.undecided]
+    chosen = next(candidate for candidate in near if candidate.outcome.score <= best + margins.equal)
+    far = [candidate for candidate in tried if candidate not in near]
+    rivals = sum(margins.likelihood(candidate.outcome.score - best) for candidate in far)
+    confidence = 1.0 / (1.0 + rivals + len(listed) * margins.likelihood(present.score - best))
 
     def step(own: _Tried) -> FoundConflict:
         equivalents = tuple(other.hypothesis for other in near if other.hypothesis.key != own.hypothesis.key)
         return FoundConflict(own.hypothesis, present, own.outcome, confidence, equivalents)
 
-    return tuple(map(step, [chosen, *(candidate for candidate in near if candidate is not chosen)]))
+    others = sorted((one for one in far if one.outcome.score <= enough), key=lambda one: one.outcome.score)
+    near = [chosen, *(candidate for candidate in near if candidate is not chosen)]
+    return _Steps(tuple(map(step, near)), tuple(map(step, others[: TRIAL.detours])))
 
 
 def _tried(listed: list[_Bounded], present: Outcome, trials: Trials) -> list[_Tried]:

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..conflicts.check import Conflicts
 from ..conflicts.conflict import Hypothesis
-from ..conflicts.search import FoundConflict
+from ..conflicts.path import FoundConflict
 from ..conflicts.setup import Setup
 from ..log.assignment import assigned, mapping_of
 from ..log.model import JointLog

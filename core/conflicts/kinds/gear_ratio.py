@@ -20,41 +20,52 @@ class GearRatio(Conflict):
     def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
         """Give the likeliest factor of every torque, where it is more than a gain's error."""
         for joint in range(setup.joints):
-            factor = _likeliest(setup, trials, joint)
-            if factor is None or abs(np.log(factor)) < RATIO.least:
+            first = _promising(setup, trials, joint)
+            if first is None:
                 continue
-            times, said = (factor, "smaller") if factor > 1.0 else (1.0 / factor, "larger")
-            yield Hypothesis(
-                self.name,
-                (joint + 1,),
-                "torque",
-                _scaled(setup, joint, factor),
-                f"the torque of joint {joint + 1} is about {times:.3g} times {said} than the other torques "
-                "and the motion ask for, as on the other side of a gear",
-                f"read the torque of joint {joint + 1} with the scale {factor:.4g}, or the exact ratio",
-            )
+            factor = first * likeliest_factor(with_factor(setup, joint, first), trials, joint)
+            if abs(np.log(factor)) >= RATIO.least:
+                yield factor_hypothesis(setup, joint, factor)
 
 
-def _likeliest(setup: Setup, trials: Trials, joint: int) -> float | None:
-    """Minimise what least squares leaves over the factor; None where none is promising.
+def factor_hypothesis(setup: Setup, joint: int, factor: float) -> Hypothesis:
+    """Say that the torque of a joint (from 0) has to be multiplied by a factor."""
+    times, said = (factor, "smaller") if factor > 1.0 else (1.0 / factor, "larger")
+    return Hypothesis(
+        GearRatio.name,
+        (joint + 1,),
+        "torque",
+        with_factor(setup, joint, factor),
+        f"the torque of joint {joint + 1} is about {times:.3g} times {said} than the other torques "
+        "and the motion ask for, as on the other side of a gear",
+        f"read the torque of joint {joint + 1} with the scale {factor:.4g}, or the exact ratio",
+    )
 
-    The first estimate is linear. The noise of the torque makes it too small.
-    """
-    normal = trials.equations(setup).normal
-    first = normal.likeliest_factor(joint)
-    if first is None:
-        return None
+
+def likeliest_factor(setup: Setup, trials: Trials, joint: int) -> float:
+    """Minimise what least squares leaves over a factor on the torque of a joint (from 0)."""
 
     def bound(logarithm: float) -> float:
-        return trials.equations(_scaled(setup, joint, float(np.exp(logarithm)))).normal.bound
+        return _bound(with_factor(setup, joint, float(np.exp(logarithm))), trials)
 
-    middle = np.log(first)
-    if normal.bound - bound(middle) < RATIO.promising:
-        return None
-    around = middle - RATIO.around, middle + RATIO.around
+    around = -RATIO.around, RATIO.around
     found = minimize_scalar(bound, bounds=around, method="bounded", options={"xatol": RATIO.tolerance})
     return float(np.exp(found.x))
 
 
-def _scaled(setup: Setup, joint: int, factor: float) -> Setup:
+def with_factor(setup: Setup, joint: int, factor: float) -> Setup:
+    """Multiply the torque of a joint (from 0)."""
     return setup.with_torque(setup.assignment.torque.scaled(factor, joint))
+
+
+def _promising(setup: Setup, trials: Trials, joint: int) -> float | None:
+    """Give the first estimate, which is linear: the noise of the torque makes it too small."""
+    first = trials.equations(setup).normal.likeliest_factor(joint)
+    if first is None:
+        return None
+    fall = _bound(setup, trials) - _bound(with_factor(setup, joint, first), trials)
+    return first if fall >= RATIO.promising else None
+
+
+def _bound(setup: Setup, trials: Trials) -> float:
+    return trials.equations(setup).normal.bound

@@ -70,6 +70,21 @@ def test_two_things_that_are_spoilt_are_named_one_after_the_other(arm):
     assert mean_percent(document) < 1.05 * sound
 
 
+@pytest.mark.parametrize(("scaled", "ratio", "reversed_"), [(1, 100.0, 2), (1, 49.0, 3), (2, 0.02, 1)])
+def test_a_gear_ratio_is_found_as_exactly_beside_a_reversed_torque(arm, scaled, ratio, reversed_):
+    """A wrong sign hides the ratio: a unit looks better at first, or the factor is off."""
+    robot, log, sound = arm
+    plain = Assignment.as_measured(4)
+    spoilt = replace(plain, torque=plain.torque.scaled(1.0 / ratio, scaled).scaled(-1.0, reversed_))
+    document = identify(IdentifyRequest(robot, (assigned(log, spoilt),), PLAIN))
+    named = {(row["conflict"], *row["joints"]): row for row in document["conflicts"]}
+    assert set(named) == {("gear_ratio", scaled + 1), ("torque_sign", reversed_ + 1)}
+    assert min(row["confidence"] for row in named.values()) > 0.9
+    scale = document["conflicts"][-1]["correction"]["mapping"]["torque"]["scale"]
+    assert scale[scaled] == pytest.approx(1.0, rel=0.003), "beside what the assignment spoilt"
+    assert mean_percent(document) < 1.05 * sound
+
+
 @pytest.mark.parametrize("factor", [180.0 / np.pi, np.pi / 180.0])
 @pytest.mark.parametrize("swapped", [False, True])
 def test_positions_that_are_all_in_another_unit_are_named_beside_channels_that_are_exchanged(
