@@ -27,6 +27,8 @@ class Hypothesis:
     """What disagrees, in words."""
     remedy: str
     """What to do, in the imperative."""
+    expected: bool = False
+    """Whether the log's numbers ask for it by their size alone: it has to fit no worse, and costs nothing."""
 
     @property
     def key(self) -> tuple[str, tuple[int, ...], Channel | None]:

@@ -24,5 +24,5 @@ Path = tuple[FoundConflict, ...]
 
 
 def cost(path: Path) -> float:
-    """Give the last error, to which each correction adds what one has to gain."""
-    return path[-1].after.score + DECISION.least_gain * len(path)
+    """Give the last error, to which each correction that is not expected adds what one has to gain."""
+    return path[-1].after.score + DECISION.least_gain * sum(not step.hypothesis.expected for step in path)

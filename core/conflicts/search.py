@@ -24,6 +24,10 @@ class _Tried:
     hypothesis: Hypothesis
     outcome: Outcome
 
+    def score(self, needed: float) -> float:
+        """Give the error's mean logarithm; what an expected correction need not gain is in its favour."""
+        return self.outcome.score - (needed if self.hypothesis.expected else 0.0)
+
 
 def find_conflicts(setup: Setup, trials: Trials) -> Path:
     """Search for corrections of a set-up, one after the other; the last one's set-up holds them all."""
@@ -136,25 +140,23 @@ def _bounded(setup: Setup, trials: Trials) -> list[_Bounded]:
 def _steps(listed: list[_Bounded], present: Outcome, trials: Trials) -> _Steps:
     """Give the hypotheses that predict best, first the most usual of those that predict alike."""
     margins = _Margins.of(present, trials)
-    tried = _tried(listed, present, trials)
-    best = min((candidate.outcome.score for candidate in tried), default=present.score)
-    chance = margins.undecided + np.log(max(len(listed), 1)) / margins.independent
-    enough = present.score - max(DECISION.least_gain, chance)
-    if best > enough:
+    needed = max(DECISION.least_gain, margins.undecided + np.log(max(len(listed), 1)) / margins.independent)
+    tried = [one for one in _tried(listed, present, trials) if one.score(needed) <= present.score - needed]
+    if not tried:
         return _Steps((), ())
-    near = [candidate for candidate in tried if candidate.outcome.score < best + margins.undecided]
-    chosen = next(candidate for candidate in near if candidate.outcome.score <= best + margins.equal)
-    far = [candidate for candidate in tried if candidate not in near]
-    rivals = sum(margins.likelihood(candidate.outcome.score - best) for candidate in far)
+    best = min(candidate.score(needed) for candidate in tried)
+    near = [candidate for candidate in tried if candidate.score(needed) < best + margins.undecided]
+    chosen = next(candidate for candidate in near if candidate.score(needed) <= best + margins.equal)
+    near = [chosen, *(candidate for candidate in near if candidate is not chosen)]
+    far = sorted((one for one in tried if one not in near), key=lambda one: one.score(needed))
+    rivals = sum(margins.likelihood(candidate.score(needed) - best) for candidate in far)
     confidence = 1.0 / (1.0 + rivals + len(listed) * margins.likelihood(present.score - best))
 
     def step(own: _Tried) -> FoundConflict:
         equivalents = tuple(other.hypothesis for other in near if other.hypothesis.key != own.hypothesis.key)
         return FoundConflict(own.hypothesis, present, own.outcome, confidence, equivalents)
 
-    others = sorted((one for one in far if one.outcome.score <= enough), key=lambda one: one.outcome.score)
-    near = [chosen, *(candidate for candidate in near if candidate is not chosen)]
-    return _Steps(tuple(map(step, near)), tuple(map(step, others[: TRIAL.detours])))
+    return _Steps(tuple(map(step, near)), tuple(map(step, far[: TRIAL.detours])))
 
 
 def _tried(listed: list[_Bounded], present: Outcome, trials: Trials) -> list[_Tried]:

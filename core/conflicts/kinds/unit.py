@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ...log.defects.plausibility import LARGEST_SPAN
 from ..conflict import Conflict, Hypothesis
 from ..setup import Setup
 from ..trial import Trials
@@ -18,13 +19,15 @@ class Unit(Conflict):
     name = "unit"
     title = "Unit of a channel"
 
-    def hypotheses(self, setup: Setup, _trials: Trials) -> Iterator[Hypothesis]:
+    def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
         """Try the usual units, of all positions and channel by channel.
 
         A common factor on all torques is another body's, and none that a log could show.
         """
         position, torque = setup.assignment.position, setup.assignment.torque
         turning = setup.revolute()
+        span = np.ptp(position.of(trials.samples.position, rate=True), axis=0)
+        wide = [joint for joint in turning if span[joint] > LARGEST_SPAN]
         for unit, factor in _POSITION_UNITS.items() if len(turning) > 1 else ():
             yield Hypothesis(
                 self.name,
@@ -33,15 +36,17 @@ class Unit(Conflict):
                 setup.with_position(position.scaled(factor, *turning)),
                 f"the positions of all joints are in {unit}",
                 f"declare all positions in {unit}",
+                expected=factor < 1.0 and bool(wide),
             )
         for joint in range(setup.joints):
             for unit, factor in _TORQUE_UNITS.items():
                 yield self._of(joint, "torque", unit, setup.with_torque(torque.scaled(factor, joint)))
         for joint in turning:
             for unit, factor in _POSITION_UNITS.items():
-                yield self._of(joint, "position", unit, setup.with_position(position.scaled(factor, joint)))
+                changed = setup.with_position(position.scaled(factor, joint))
+                yield self._of(joint, "position", unit, changed, expected=factor < 1.0 and joint in wide)
 
-    def _of(self, joint: int, channel: str, unit: str, setup: Setup) -> Hypothesis:
+    def _of(self, joint: int, channel: str, unit: str, setup: Setup, *, expected: bool = False) -> Hypothesis:
         return Hypothesis(
             self.name,
             (joint + 1,),
@@ -49,4 +54,5 @@ class Unit(Conflict):
             setup,
             f"the {channel} of joint {joint + 1} is in {unit}",
             f"declare the {channel} of joint {joint + 1} in {unit}",
+            expected,
         )

@@ -1,6 +1,7 @@
 """Find a channel that keeps one value exactly while its joint moves, as one does whose sensor or link hangs.
 
-A position that moved, stood still for a moment and is much farther on afterwards did not stand still. A
+A position that moved, stood still for a moment and is much farther on afterwards did not stand still; nor did
+one that goes on with a step larger than any other. A
 torque that carries noise does not repeat a value many times while the joint gets on, unless it is clipped. A
 channel that does so again and again is coarse or held by its maker: that is a habit and no fault.
 """
@@ -95,7 +96,7 @@ class _Signal:
         self._runs = LongRuns(len(_KNOWN))
         self._again: Counter[float] = Counter()
         self._rows = self._repeats = self._turns = 0
-        self._way = self._change = self._before = 0.0
+        self._way = self._change = self._before = self._largest = 0.0
         self._low, self._high = np.inf, -np.inf
 
     def update(self, values: Samples, position: Samples, time: Samples, first: int) -> None:
@@ -116,19 +117,21 @@ class _Signal:
         self._turns += int(np.count_nonzero(changes[1:] * changes[:-1] < 0.0))
         self._change += float(steps.sum())
         self._way = float(way[-1])
+        self._largest = max(self._largest, float(np.max(steps[before > 0.0], initial=0.0)))
         self._before = float(steps[-1])
         self._low, self._high = min(self._low, values.min()), max(self._high, values.max())
 
     def runs_before_jumps(self) -> np.ndarray:
-        """Give the runs between a motion and a position that is much farther on than it usually gets."""
+        """Give the runs before a position that is much farther on than it usually gets: see above."""
         runs = self._exceptional()
         begin, end = runs[:, 0], runs[:, 1]
         lasted = end[:, _ROW] - begin[:, _ROW]
         seconds = end[:, _TIME] - begin[:, _TIME]
         together = end[:, _ELAPSED] * lasted < GAP_STEPS * seconds
         moved = begin[:, _BEFORE] > MOVES * self._jump
-        away = np.minimum(end[:, _STEP], end[:, _NEXT]) > self._jump
-        return np.asarray(runs[together & moved & away & (seconds < LONGEST_S)])
+        away = np.minimum(end[:, _STEP], end[:, _NEXT])
+        moved |= away > self._largest
+        return np.asarray(runs[together & moved & (away > self._jump) & (seconds < LONGEST_S)])
 
     def runs_while_moving(self) -> np.ndarray:
         """Give the runs of a noisy channel during which the joint moves, one to the log's end among them."""

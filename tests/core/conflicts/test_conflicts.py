@@ -85,6 +85,19 @@ def test_a_gear_ratio_is_found_as_exactly_beside_a_reversed_torque(arm, scaled, 
     assert mean_percent(document) < 1.05 * sound
 
 
+def test_degrees_that_no_joint_could_turn_are_named_though_they_alone_make_the_fit_hardly_better():
+    """A torque on the motor's side of a gear hides what the unit costs; the size of the numbers tells it."""
+    case = draw_clean(4001, noise="none", robot="planar-2", duration=15.0)
+    plain = Assignment.as_measured(2)
+    spoilt = Assignment(plain.position.scaled(180.0 / np.pi, 1), plain.torque.scaled(0.01, 0))
+    rows = whole_rows(assigned(case.log, spoilt))
+    log = log_from_arrays("log", rows.time, rows.position, rows.torque)
+    document = identify(IdentifyRequest(case.believed, (log,), PLAIN))
+    named = [(row["conflict"], *row["joints"]) for row in document["conflicts"]]
+    assert named[0] == ("unit", 2)
+    assert named[1:] in ([("gear_ratio", 1)], [("gear_ratio", 2)])
+
+
 @pytest.mark.parametrize("factor", [180.0 / np.pi, np.pi / 180.0])
 @pytest.mark.parametrize("swapped", [False, True])
 def test_positions_that_are_all_in_another_unit_are_named_beside_channels_that_are_exchanged(

@@ -131,6 +131,18 @@ def test_a_log_is_cut_where_one_channel_hangs_while_its_joint_moves(start, chann
     assert "1 run of 60 rows in all while the joint moves on" in found.statement
 
 
+def test_a_position_that_hangs_from_a_reversal_on_is_told_by_its_leap():
+    """It hardly moved before, as a joint that rests; but none gets so far in one sample."""
+    time, position, torque = healthy()
+    start = 1000 + int(np.argmax(position[1000:2000, 1]))
+    stop = start + 60
+    position[start:stop, 1] = position[start - 1, 1]
+    assert abs(position[start - 1, 1] - position[start - 2, 1]) < 0.1 * np.abs(np.diff(position[:, 1])).mean()
+    log = log_of(time, position, torque)
+    assert log.segments == ((0, start), (stop, len(time)))
+    assert only(log, "stuck_channel")[0].joint == 2
+
+
 def test_channels_that_hang_at_the_same_time_cut_the_log_once():
     time, position, torque = healthy()
     torque[1000:1050] = torque[999]
