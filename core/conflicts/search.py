@@ -42,28 +42,31 @@ def _path(setup: Setup, present: Outcome, trials: Trials, most: int) -> Path:
     Where several predict alike and the first is not all, the search goes on from each of them. Several wrong
     ones may undo each other: a mirrored robot moves under mirrored gravity as the true one does. So
     paths are compared by their last error, to which each correction adds what one has to gain. Where all of
-    them leave a joint in doubt, the first step may hide the next: the search goes on from the next best.
+    them leave a joint in doubt, two errors may hide each other: the search goes on from the next best.
     """
-    steps = _steps(_bounded(setup, trials), present, trials) if most else _Steps((), ())
+    steps = _steps(_bounded(setup, trials), present, trials) if most else _Steps((), (), 0.0)
     paths: list[Path] = []
 
-    def go_on(step: FoundConflict) -> None:
-        paths.append((step, *_path(step.hypothesis.setup, step.after, trials, most - 1)))
+    def go_on(step: FoundConflict) -> Path:
+        return (step, *_path(step.hypothesis.setup, step.after, trials, most - 1))
 
     for step in steps.best:
-        go_on(step)
-        if len(paths[0]) == 1 and not _is_poor(paths[0]):
+        paths.append(go_on(step))
+        if len(paths[0]) == 1 and not _is_poor(step.after):
             return paths[0]
-    for step in steps.others if most == TRIAL.most_corrections else ():
-        if not all(map(_is_poor, paths)):
-            break
-        go_on(step)
+    ends = [path[-1].after for path in paths] or [present]
+    for step in steps.others if most == TRIAL.most_corrections and all(map(_is_poor, ends)) else ():
+        path = go_on(step)
+        if len(path) > 1 and cost(path) <= present.score - steps.chance:
+            paths.append(path)
+            if not _is_poor(path[-1].after):
+                break
     return _chosen(paths, len(steps.best), _Margins.of(present, trials)) if paths else ()
 
 
-def _is_poor(path: Path) -> bool:
-    """Tell whether the corrections of a path leave a joint in doubt."""
-    return float(np.max(path[-1].after.errors)) > 0.01 * DOUBT.unexplained_percent
+def _is_poor(outcome: Outcome) -> bool:
+    """Tell whether a joint's error is in doubt."""
+    return float(np.max(outcome.errors)) > 0.01 * DOUBT.unexplained_percent
 
 
 def _chosen(paths: list[Path], best: int, margins: "_Margins") -> Path:
@@ -114,10 +117,14 @@ class _Margins:
 
 @dataclass(frozen=True, eq=False)
 class _Steps:
-    """Hold first steps: those that predict best, and the next best that lead on as well."""
+    """Hold first steps."""
 
     best: Path
+    """Those that predict best."""
     others: Path
+    """The next best, which may hide behind an error that only another step corrects."""
+    chance: float
+    """Logarithm of the error by which a path has to gain beyond what its corrections cost."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,13 +148,10 @@ def _steps(listed: list[_Bounded], present: Outcome, trials: Trials) -> _Steps:
     """Give the hypotheses that predict best, first the most usual of those that predict alike."""
     margins = _Margins.of(present, trials)
     needed = max(DECISION.least_gain, margins.undecided + np.log(max(len(listed), 1)) / margins.independent)
-    tried = [one for one in _tried(listed, present, trials) if one.score(needed) <= present.score - needed]
-    if not tried:
-        return _Steps((), ())
-    best = min(candidate.score(needed) for candidate in tried)
-    near = [candidate for candidate in tried if candidate.score(needed) < best + margins.undecided]
-    chosen = next(candidate for candidate in near if candidate.score(needed) <= best + margins.equal)
-    near = [chosen, *(candidate for candidate in near if candidate is not chosen)]
+    tried = [one for one in _tried(listed, present, trials) if one.score(needed) < present.score]
+    best = min((candidate.score(needed) for candidate in tried), default=present.score)
+    near = [one for one in tried if one.score(needed) < min(best + margins.undecided, present.score - needed)]
+    near.sort(key=lambda candidate: candidate.score(needed) > best + margins.equal)
     far = sorted((one for one in tried if one not in near), key=lambda one: one.score(needed))
     rivals = sum(margins.likelihood(candidate.score(needed) - best) for candidate in far)
     confidence = 1.0 / (1.0 + rivals + len(listed) * margins.likelihood(present.score - best))
@@ -156,7 +160,8 @@ def _steps(listed: list[_Bounded], present: Outcome, trials: Trials) -> _Steps:
         equivalents = tuple(other.hypothesis for other in near if other.hypothesis.key != own.hypothesis.key)
         return FoundConflict(own.hypothesis, present, own.outcome, confidence, equivalents)
 
-    return _Steps(tuple(map(step, near)), tuple(map(step, far[: TRIAL.detours])))
+    others = far[: TRIAL.detours]
+    return _Steps(tuple(map(step, near)), tuple(map(step, others)), needed - DECISION.least_gain)
 
 
 def _tried(listed: list[_Bounded], present: Outcome, trials: Trials) -> list[_Tried]:
