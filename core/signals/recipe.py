@@ -10,12 +10,12 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from scipy import signal
 
-from ..arrays import JointSeries, JointVector, Mask
+from ..arrays import JointSeries, JointVector, Mask, Matrix, Samples
 from ..errors import OptionError
 from ..log.model import JointLog
 from ..robot.joint_units import largest_of_kind
 from .derivative import differentiate_throughout
-from .noise_band import ATTENUATION, OUTWEIGHED, noise_cutoff
+from .noise_band import ATTENUATION, OUTWEIGHED, noise_cutoff, noise_floor
 from .resample import uniform_positions
 from .zero_phase import HIGHEST_ORDER
 
@@ -269,13 +269,28 @@ def _survey(log: JointLog, median_order: int) -> _Survey:
     speeds = np.sqrt(np.mean([np.mean(velocity**2, axis=0) for velocity in velocities], axis=0))
     power = np.mean([_power(velocity, log.rate_hz) for velocity in velocities], axis=0)
     frequency = np.fft.rfftfreq(2 * (power.shape[0] - 1), 1.0 / log.rate_hz)
-    held = np.cumsum(power, axis=0) / np.maximum(power.sum(axis=0), np.finfo(float).tiny)
-    bands, middles = (
-        np.array([frequency[np.argmax(share >= wanted)] for share in held.T])
-        for wanted in (MOTION_SHARE, 0.5)
-    )
+    bands, middles = (_band(frequency, power, share) for share in (MOTION_SHARE, 0.5))
     noisy = middles > NOISY_SHARE * _low_pass_hz(log.rate_hz)
+    moving = bands[~noisy]
+    if len(moving):
+        noise = np.mean([noise_floor(one, log.rate_hz, float(moving.max())) for one in positions], axis=0)
+        passed = signal.sosfreqz(_low_pass(log.rate_hz), frequency, fs=log.rate_hz)[1]
+        shape = (2.0 * np.pi * frequency) ** 2 * np.abs(passed) ** 4
+        bands = _band(frequency, power - shape[:, None] * noise, MOTION_SHARE)
     return _Survey(bands, speeds, noisy, positions, slowest)
+
+
+def _band(frequency: Samples, power: np.ndarray, share: float) -> JointVector:
+    """Give the frequency (Hz) below which a share of each joint's power lies.
+
+    What is left of noise of which the mean was subtracted has either sign, and adds up to little.
+    """
+    held = np.cumsum(power, axis=0)
+    return np.array([frequency[np.argmax(one >= share * one.max())] for one in held.T])
+
+
+def _low_pass(rate_hz: float) -> Matrix:
+    return np.asarray(signal.butter(2, _low_pass_hz(rate_hz), fs=rate_hz, output="sos"))
 
 
 def _low_pass_hz(rate_hz: float) -> float:
@@ -283,8 +298,7 @@ def _low_pass_hz(rate_hz: float) -> float:
 
 
 def _velocity(position: JointSeries, rate_hz: float) -> JointSeries:
-    low = signal.butter(2, _low_pass_hz(rate_hz), fs=rate_hz, output="sos")
-    smooth = signal.sosfiltfilt(low, position, axis=0)
+    smooth = signal.sosfiltfilt(_low_pass(rate_hz), position, axis=0)
     return differentiate_throughout(smooth, rate_hz)
 
 
