@@ -9,9 +9,9 @@ from functools import cache
 from pathlib import Path
 
 from .conflicts.check import Conflicts, check
-from .diagnosis.diagnose import DiagnosisProblem
+from .diagnosis.checks.reservations import with_reservations
 from .diagnosis.diagnose import diagnose as find_causes
-from .diagnosis.reservations import with_reservations
+from .diagnosis.problem import DiagnosisProblem
 from .diagnosis.result import Diagnosis
 from .document.conflicts import conflict_rows, with_conflicts
 from .document.diagnosis import diagnosis_document

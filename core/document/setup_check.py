@@ -7,7 +7,7 @@ import numpy as np
 from ..conflicts.check import Conflicts
 from ..diagnosis.causes.protocol import Site
 from ..diagnosis.causes.registry import BY_ID
-from ..diagnosis.separability import Pair, Separability, Shown, Smallest
+from ..diagnosis.checks.separability import Pair, Separability, Shown, Smallest
 from ..identification.result import Identification
 from ..precision.inference import relative_deviation_percent
 from ..validation.quality import quality

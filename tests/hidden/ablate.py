@@ -198,7 +198,8 @@ def answers(task: Task) -> Answers:
 
 
 def _answer(order: Order) -> Answer:
-    from veritorque.core.diagnosis.diagnose import DiagnosisProblem, diagnose
+    from veritorque.core.diagnosis.diagnose import diagnose
+    from veritorque.core.diagnosis.problem import DiagnosisProblem
 
     case = drawn(order)
     base = base_model(standard_model(case.believed, None))

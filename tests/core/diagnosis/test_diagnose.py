@@ -7,7 +7,8 @@ import pytest
 
 from tests.core.diagnosis.residual.worlds import EXAMPLE, world
 from tests.core.diagnosis.scenes import Effect, Scene, measured_arm
-from veritorque.core.diagnosis.diagnose import DiagnosisProblem, diagnose
+from veritorque.core.diagnosis.diagnose import diagnose
+from veritorque.core.diagnosis.problem import DiagnosisProblem
 from veritorque.core.diagnosis.result import Diagnosis
 from veritorque.core.extension.cure import corrections, extended_base, input_note
 from veritorque.core.log.reader import read_log

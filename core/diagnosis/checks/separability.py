@@ -17,20 +17,20 @@ from scipy.linalg import block_diag
 from scipy.linalg.lapack import dtrtrs
 from scipy.stats import chi2
 
-from ..arrays import SquareMatrix
-from .causes.imitation import Imitation, imitations
-from .causes.protocol import Cause, FittedCause, Quantity, Site
-from .causes.registry import CAUSES
-from .dataset.dataset import build_dataset
-from .diagnose import DiagnosisProblem
-from .regression.gls import Fit
-from .regression.rows import Columns, JointRows
-from .regression.score_test import Score
-from .search.fitter import HypothesisFitter, hypothesis_fitter
-from .search.hypothesis import Candidate, is_determined
-from .thresholds.checks import ALTERNATIVES, SEPARATION
-from .thresholds.regression import COLUMNS
-from .thresholds.search import ENTRY
+from ...arrays import SquareMatrix
+from ..causes.imitation import Imitation, imitations
+from ..causes.protocol import Cause, FittedCause, Quantity, Site
+from ..causes.registry import CAUSES
+from ..dataset.dataset import build_dataset
+from ..problem import DiagnosisProblem
+from ..regression.gls import Fit
+from ..regression.rows import Columns, JointRows
+from ..regression.score_test import Score
+from ..search.fitter import HypothesisFitter, hypothesis_fitter
+from ..search.hypothesis import Candidate, is_determined
+from ..thresholds.checks import ALTERNATIVES, SEPARATION
+from ..thresholds.regression import COLUMNS
+from ..thresholds.search import ENTRY
 
 Answer = Literal["yes", "needs_motion", "never"]
 

@@ -9,8 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from .result import Diagnosis, Finding
-from .thresholds.checks import SIZE, VERDICT
+from ..result import Diagnosis, Finding
+from ..thresholds.checks import SIZE, VERDICT
 
 
 def with_reservations(found: Diagnosis, *, open_conflict: bool, doubted: bool) -> Diagnosis:
