@@ -24,8 +24,6 @@ from .thresholds import LOG
 
 ROUNDS = 4
 """Gauss-Newton steps of a fit: only products of mass and centre are not linear."""
-THINNEST = 1e-3
-"""Least second moment of a corrected body over its largest one: a rod of 1 to 30."""
 IMPOSSIBLE = 1e12
 """Cost of bodies without mass."""
 Chosen = frozenset[Entry]
@@ -173,7 +171,7 @@ def _consistent(correction: Correction) -> LinkTable:
     for link in {entry.link - 1 for entry in correction.chosen}:
         mass, centre, inertia = mass_properties(table[link])
         moments, axes = np.linalg.eigh(0.5 * np.trace(inertia) * np.eye(3) - inertia)
-        least = THINNEST * max(float(moments[-1]), 0.0)
+        least = LOG.thinnest * max(float(moments[-1]), 0.0)
         if moments[0] < least:
             second = axes * np.maximum(moments, least) @ axes.T
             table[link] = from_mass_properties(mass, centre, np.trace(second) * np.eye(3) - second)

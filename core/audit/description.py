@@ -12,11 +12,6 @@ from .thresholds import DESCRIPTION
 
 ROUNDING = 1e-9
 """An eigenvalue above minus this share of the largest one is rounding."""
-MARGIN, SHARE_OF_REACH = 0.1, 0.1
-"""What a body reaches beyond the axes it carries: m, plus a share of the robot's reach. Drives and covers of
-arms of 0.5 to 3 m reach 0.1 to 0.3 m beyond."""
-TIP = 0.5
-"""Share of the longest link that a link without a successor is long: its tool is in no table."""
 UNITS = {
     1e3: "grams instead of kilograms, or millimetres instead of metres",
     1e6: "kg mm2 instead of kg m2",
@@ -97,7 +92,8 @@ def _bodies(robot: RobotModel) -> list[_Body]:
         ends = [other.translation for other in robot.links if other.antecedent == index + 1]
         points = np.array([np.zeros(3), *ends])
         middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
-        beyond = MARGIN + SHARE_OF_REACH * reach + (0.0 if ends else TIP * longest)
+        tip = 0.0 if ends else DESCRIPTION.tip * longest
+        beyond = DESCRIPTION.beyond_metres + DESCRIPTION.beyond_share * reach + tip
         radius = float(np.linalg.norm(points - middle, axis=1).max()) + beyond if longest else float("inf")
         eigenvalues = np.linalg.eigvalsh(pseudo_inertia(body))
         found.append(_Body(index + 1, link.name, *mass_properties(body), eigenvalues, middle, radius))
@@ -186,7 +182,9 @@ def _of_size(body: _Body) -> Iterator[Remark]:
 
 def _of_units(bodies: list[_Body]) -> list[Remark]:
     """Find a unit that all inertias share: their radii of gyration are off by the root of one factor."""
-    ratios = [body.gyration / (0.3 * body.radius) for body in bodies if np.isfinite(body.radius)]
+    ratios = [
+        body.gyration / (DESCRIPTION.usual * body.radius) for body in bodies if np.isfinite(body.radius)
+    ]
     ratios = [ratio for ratio in ratios if ratio > 0.0]
     if not ratios:
         return []

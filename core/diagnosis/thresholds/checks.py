@@ -115,5 +115,14 @@ class AtRest:
     """Rows of a stand that can be judged."""
 
 
-SIZE, SEPARATION, AT_REST = Size(), Separation(), AtRest()
+@dataclass(frozen=True)
+class Motion:
+    """Decide whether a correction worsens the simulated motion. Set by hand."""
+
+    clearly_worse_percent: float = 10.0
+    """Growth of a joint's position error, nearer end of its 95 % interval, from which motion is clearly
+    worse."""
+
+
+SIZE, SEPARATION, AT_REST, MOTION = Size(), Separation(), AtRest(), Motion()
 ALTERNATIVES, VERDICT, UNNAMED, CONFIDENCE = Alternatives(), Verdict(), Unnamed(), Confidence()
