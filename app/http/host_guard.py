@@ -48,14 +48,18 @@ class HostGuard:
         hosts = [value for name, value in scope["headers"] if name == b"host"]
         if len(hosts) != 1:
             return None if scope["http_version"] == "1.0" and not hosts else _no_host(len(hosts))
-        if hosts[0] not in self._known:
-            if not self._is_ours(hosts[0].decode("latin-1")):
-                return _not_ours(hosts[0].decode("latin-1"))
-            if len(self._known) < MOST_REMEMBERED:
-                self._known.add(hosts[0])
+        if not self._knows(hosts[0]):
+            return _not_ours(hosts[0].decode("latin-1"))
         if scope["method"] not in SAFE_METHODS and _from_elsewhere(scope, hosts[0]):
             return _other_site()
         return None
+
+    def _knows(self, host: bytes) -> bool:
+        """Tell whether a host is one of ours, and remember it."""
+        known = host in self._known or self._is_ours(host.decode("latin-1"))
+        if known and len(self._known) < MOST_REMEMBERED:
+            self._known.add(host)
+        return known
 
     def _is_ours(self, host: str) -> bool:
         try:

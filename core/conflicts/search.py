@@ -6,6 +6,7 @@ is applied and the search goes on from it, until none is better than chance and 
 several are best, the search goes on from each, and the fewest corrections are preferred.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -58,16 +59,20 @@ def _with_gravity_refined(path: Path, described: Setup, trials: Trials) -> Path:
     if not mountings or mountings == [len(path) - 1]:
         return path
     corrected = path[-1].hypothesis.setup.with_gravity(described.robot.gravity)
-    tried = [
-        _Tried(hypothesis, outcome)
-        for hypothesis in CONFLICTS[Mounting.name].hypotheses(corrected, trials)
-        if (outcome := trials.outcome(trials.equations(hypothesis.setup))) is not None
-    ]
+    tried = list(_tried_mountings(corrected, trials))
     if not tried:
         return path
     best = min(tried, key=lambda candidate: candidate.outcome.score).hypothesis
     refined = _with_gravity(path, described, best, trials)
     return refined if _cost(refined) < _cost(path) else path
+
+
+def _tried_mountings(setup: Setup, trials: Trials) -> Iterator["_Tried"]:
+    """Try every direction of gravity."""
+    for hypothesis in CONFLICTS[Mounting.name].hypotheses(setup, trials):
+        outcome = trials.outcome(trials.equations(hypothesis.setup))
+        if outcome is not None:
+            yield _Tried(hypothesis, outcome)
 
 
 def _with_gravity(path: Path, described: Setup, mounting: Hypothesis | None, trials: Trials) -> Path:
@@ -102,9 +107,11 @@ def _path(setup: Setup, present: Outcome, trials: Trials, most: int) -> Path:
         paths.append((step, *_path(step.hypothesis.setup, step.after, trials, most - 1)))
         if len(paths[0]) == 1:
             return paths[0]
-    if not paths:
-        return ()
-    undecided, equal = _margins(present, trials)
+    return _cheapest(paths, *_margins(present, trials)) if paths else ()
+
+
+def _cheapest(paths: list[Path], undecided: float, equal: float) -> Path:
+    """Give the first of the paths that cost least, with those that cost about as much beside it."""
     least = min(map(_cost, paths))
     chosen = next(path for path in paths if _cost(path) <= least + equal)
     others = (path for path in paths if _corrections(path) != _corrections(chosen))
@@ -149,23 +156,29 @@ def _steps(listed: list[_Bounded], present: Outcome, trials: Trials) -> Path:
     undecided, equal = _margins(present, trials)
     tried = _tried(listed, present, trials)
     best = min((candidate.outcome.score for candidate in tried), default=present.score)
-    chance = undecided + np.log(max(len(listed), 1)) / independent
+    chance = undecided + np.log(max(len(listed), 1)) / independent  # of the best of so many
     if present.score - best < max(DECISION.least_gain, chance):
         return ()
     near = [candidate for candidate in tried if candidate.outcome.score < best + undecided]
     chosen = next(candidate for candidate in near if candidate.outcome.score <= best + equal)
 
-    def likelihood(outcome: Outcome) -> float:
-        return float(np.exp(independent * (best - outcome.score)))
+    worse = (candidate.outcome.score for candidate in tried if candidate not in near)
+    others = sum(_likelihood(score - best, independent) for score in worse)
+    confidence = 1.0 / (1.0 + others + len(listed) * _likelihood(present.score - best, independent))
+    usual = [chosen, *(candidate for candidate in near if candidate is not chosen)]
+    return tuple(
+        FoundConflict(own.hypothesis, present, own.outcome, confidence, _others(near, own)) for own in usual
+    )
 
-    others = sum(likelihood(candidate.outcome) for candidate in tried if candidate not in near)
-    confidence = 1.0 / (1.0 + others + len(listed) * likelihood(present))
 
-    def step(own: _Tried) -> FoundConflict:
-        equivalents = tuple(other.hypothesis for other in near if other.hypothesis.key != own.hypothesis.key)
-        return FoundConflict(own.hypothesis, present, own.outcome, confidence, equivalents)
+def _likelihood(more: float, independent: float) -> float:
+    """Give the likelihood, over the best one's, of a score that is larger by so much."""
+    return float(np.exp(-independent * more))
 
-    return tuple(map(step, [chosen, *(candidate for candidate in near if candidate is not chosen)]))
+
+def _others(near: list[_Tried], own: _Tried) -> tuple[Hypothesis, ...]:
+    """List the hypotheses of another kind or joint."""
+    return tuple(other.hypothesis for other in near if other.hypothesis.key != own.hypothesis.key)
 
 
 def _tried(listed: list[_Bounded], present: Outcome, trials: Trials) -> list[_Tried]:

@@ -1,6 +1,6 @@
 """Read a result document as the robot that was identified: the whole model, or what every format can hold."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -15,7 +15,7 @@ from ..estimate.smoothing import with_widths
 from ..extension.fold import fold, parts_of
 from ..robot.description import robot_from_description
 from ..robot.frames import nearest_rotation
-from ..robot.model import Coupling, RobotModel
+from ..robot.model import Coupling, Parameter, RobotModel
 from .answer import EXTENDED, answer_remarks, model_name, plain_document
 from .identified import BaseValue, IdentifiedRobot
 from .model_file import model_from_document
@@ -149,14 +149,21 @@ def _orthonormal(robot: RobotModel) -> RobotModel:
     return replace(robot, links=links)
 
 
+def _names_of(parameters: Iterable[Parameter]) -> list[str]:
+    return [parameter.name for parameter in parameters]
+
+
+def _model_of(robot: RobotModel, terms: set[str]) -> DynamicModel:
+    """Give the standard model of a robot with some of its terms."""
+    return standard_model(robot, tuple(name for name in named_terms(standard_model(robot)) if name in terms))
+
+
 def _standard_part(
     extended: IdentifiedRobot, robot: RobotModel, repaired: set[str], remarks: list[str]
 ) -> IdentifiedRobot:
     """Take the standard terms out of an extended model, with what belongs into their parameters."""
     model, standard = fold(extended.model, extended.standard)
-    known = dict(
-        zip((parameter.name for parameter in extended.model.parameters), extended.identifiable, strict=True)
-    )
+    known = dict(zip(_names_of(extended.model.parameters), extended.identifiable, strict=True))
     values: dict[str, float] = {}
     widths: tuple[float, ...] = ()
     couplings = list(robot.couplings)
@@ -164,23 +171,20 @@ def _standard_part(
     beyond: list[str] = []
     for term, own in model.split(standard):
         if isinstance(term, (*STANDARD_TERMS.values(), MissingRotor, MissingCoupling)):
-            names = (parameter.name for parameter in term.parameters(model.robot))
-            values |= dict(zip(names, map(float, own), strict=True))
+            values |= dict(zip(_names_of(term.parameters(model.robot)), map(float, own), strict=True))
             held_terms.add(_STANDARD_NAME.get(type(term), term.name))
             widths = getattr(term, "widths", ()) if isinstance(term, Coulomb) else widths
             couplings += _new_couplings(term, couplings)
         elif getattr(term, "kind", "") not in repaired:
             beyond.append(term.name)
-    whole = _declare(robot, values, tuple(couplings))
-    every = standard_model(whole)
-    named = tuple(name for name in named_terms(every) if name in held_terms)
-    held = with_widths(standard_model(whole, named), widths)
+    held = with_widths(_model_of(_declare(robot, values, tuple(couplings)), held_terms), widths)
+    names = _names_of(held.parameters)
     if beyond:
         remarks = [*remarks, f"The extended model also has {', '.join(beyond)}; model.json holds these too."]
     return IdentifiedRobot(
         model=held,
-        standard=np.array([values.get(parameter.name, 0.0) for parameter in held.parameters]),
-        identifiable=tuple(known.get(parameter.name, "no") for parameter in held.parameters),
+        standard=np.array([values.get(name, 0.0) for name in names]),
+        identifiable=tuple(known.get(name, "no") for name in names),
         base=extended.base,
         remarks=(*extended.remarks, *remarks),
     )

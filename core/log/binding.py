@@ -1,6 +1,7 @@
 """Bind a channel to its columns: units, and what turns a number into SI."""
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -62,10 +63,7 @@ class Binding:
         if self.name == TIME:
             return {"column": self.columns[0], **({"unit": self.units[0]} if self.units else {})}
         declared = self.units or (next(iter(UNITS[self.name])),) * len(self.columns)
-        units = [
-            _unit_of(gain, UNITS[self.name][unit], self.name)
-            for gain, unit in zip(self.gain, declared, strict=True)
-        ]
+        units = list(map(partial(_unit_of, self.name), self.gain, declared))
         scale = [gain / unit.factor for gain, unit in zip(self.gain, units, strict=True)]
         offset = [bias / unit.factor - unit.offset for bias, unit in zip(self.bias, units, strict=True)]
         mapping: dict[str, object] = {"columns": list(self.columns), "unit": [unit.name for unit in units]}
@@ -76,16 +74,20 @@ class Binding:
         return mapping
 
 
-def _unit_of(gain: float, declared: Unit, channel: str) -> Unit:
+def _unit_of(channel: str, gain: float, name: str) -> Unit:
     """Give the unit of which a gain is the factor, but for its sign; else the declared one."""
-    if declared.offset or declared.needs_scale or _is_factor(gain, declared):
+    declared = UNITS[channel][name]
+    if _is_affine(declared) or _is_factor(gain, declared):
         return declared
-    alike = (
-        unit
-        for unit in UNITS[channel].values()
-        if unit.prismatic == declared.prismatic and not (unit.needs_scale or unit.offset)
-    )
-    return next((unit for unit in alike if _is_factor(gain, unit)), declared)
+    for unit in UNITS[channel].values():
+        if unit.prismatic == declared.prismatic and not _is_affine(unit) and _is_factor(gain, unit):
+            return unit
+    return declared
+
+
+def _is_affine(unit: Unit) -> bool:
+    """Tell whether more than a factor leads to SI, or whether a log has to give it."""
+    return bool(unit.offset) or unit.needs_scale
 
 
 def _is_factor(gain: float, unit: Unit) -> bool:

@@ -48,18 +48,16 @@ def _told(names: tuple[str, ...], block: Series, count: int) -> dict[str, list[s
     joints, rest = divmod(len(names) - 1, count)
     if rest or not joints:
         return {}
-    quantities = [block[1 + first * joints : 1 + (first + 1) * joints] for first in range(count)]
+    spans = [slice(1 + place * joints, 1 + (place + 1) * joints) for place in range(count)]
+    quantities = [block[span] for span in spans]
     rates = _rates(block[0], quantities)
     if len(rates) != count - 2:
         return {}
-    others = [place for place in range(count) if place not in [rate for _, rate in rates]]
+    others = sorted({*range(count)} - {rate for _, rate in rates})
     position = rates[0][0] if rates else min(others, key=lambda place: _roughness(quantities[place]))
     torque = next(place for place in others if place != position)
     places = {"position": position, "torque": torque} | ({"velocity": rates[0][1]} if rates else {})
-    return {"time": [names[0]]} | {
-        channel: list(names[1 + place * joints : 1 + (place + 1) * joints])
-        for channel, place in places.items()
-    }
+    return {"time": [names[0]]} | {channel: list(names[spans[place]]) for channel, place in places.items()}
 
 
 def _rates(time: np.ndarray, quantities: list[Series]) -> list[tuple[int, int]]:

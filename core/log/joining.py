@@ -61,7 +61,7 @@ def join_logs(paths: Sequence[Path]) -> Joined:
         If a file has no clock, or clocks share less than half of the shortest file's time.
     """
     parts = [_read(path) for path in paths]
-    first = next((part for part in parts if any(map(_is_position, part.columns))), parts[0])
+    first = _leading(parts)
     begin, end = max(part.time[0] for part in parts), min(part.time[-1] for part in parts)
     _check_shared(parts, float(begin), float(end))
     inside = (first.time >= begin) & (first.time <= end)
@@ -69,7 +69,7 @@ def join_logs(paths: Sequence[Path]) -> Joined:
     columns, notes = {TIME: clock}, []
     taken = _repeated([name for part in parts for name in part.columns])
     for part in parts:
-        same = len(part.time) == len(first.time) and np.array_equal(part.time, first.time)
+        same = np.array_equal(part.time, first.time)
         for name, values in part.columns.items():
             kept = values[inside] if same else _brought(name, clock, part.time, values)
             columns[f"{part.name}_{name}" if name in taken else name] = kept
@@ -82,6 +82,11 @@ def join_logs(paths: Sequence[Path]) -> Joined:
         outside = count_text(int(np.count_nonzero(~inside)), "row")
         notes.append(f"{outside} of {first.name} outside the shared time left out")
     return Joined(columns, tuple(notes))
+
+
+def _leading(parts: Sequence[_Part]) -> _Part:
+    """Give the first file with positions, whose clock the others are brought to; else the first."""
+    return next((part for part in parts if any(map(_is_position, part.columns))), parts[0])
 
 
 def _is_position(name: str) -> bool:

@@ -5,9 +5,10 @@ products that tell how far the residual's memory inflates a variance. Blocks are
 choose from.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
+from typing import TypeVar
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from .memory import LaggedProducts, TurningProducts
 
 _POSITIONS_PER_TILE = 32
 _UNMARKED = np.zeros(0, dtype=bool)
+Products = TypeVar("Products")
 Progress = Callable[[float], None]
 
 
@@ -121,6 +123,13 @@ class Observation:
         )
 
 
+def _merged_by_joint(
+    merge: Callable[[Products, Products], Products], motions: Sequence[Sequence[Products]]
+) -> tuple[Products, ...]:
+    """Merge what every motion has gathered, joint by joint."""
+    return tuple(reduce(merge, of_joint) for of_joint in zip(*motions, strict=True))
+
+
 def observe(
     plan: ColumnPlan,
     motions: tuple[Motion, ...],
@@ -145,14 +154,8 @@ def observe(
     gathered = [_Gathering(plan, weigh, held_out, number) for number in range(len(motions))]
     total = _take_all(motions, gathered, progress)
     blocks = tuple(block for gathering in gathered for block in gathering.blocks())
-    joints = range(len(plan.columns_of))
-    memory = tuple(
-        reduce(LaggedProducts.merged, (gathering.memory[joint] for gathering in gathered)) for joint in joints
-    )
-    turning = tuple(
-        reduce(TurningProducts.merged, (gathering.turning[joint] for gathering in gathered))
-        for joint in joints
-    )
+    memory = _merged_by_joint(LaggedProducts.merged, [gathering.memory for gathering in gathered])
+    turning = _merged_by_joint(TurningProducts.merged, [gathering.turning for gathering in gathered])
     positions = np.vstack([position for gathering in gathered for position in gathering.positions])
     return Observation(plan, blocks, plan.columns_of, memory, turning, positions, total)
 

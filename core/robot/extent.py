@@ -5,6 +5,7 @@ Without either a link is assumed to lie about its joint's axis and the axes it c
 their axes, so the feet of the common normals count too. Source: Wensing, Kim & Slotine 2018, section IV.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -54,12 +55,9 @@ def link_extents(robot: RobotModel) -> tuple[Extent | None, ...]:
     for index in range(len(robot.links)):
         points = _axis_points(robot, index)
         is_tip = all(other.antecedent != index + 1 for other in robot.links)
-        shape = None if robot.shapes is None else robot.shapes[index]
+        shape = robot.shapes[index] if robot.shapes else None
         if shape is not None:
-            whole = Ball.joined((shape, Ball.around(points)))
-            found.append(
-                Extent(_grown(whole, GEOMETRY, LEAST_ASSUMED if is_tip else 2.0 * GEOMETRY), "shapes")
-            )
+            found.append(_of_shape(shape, points, is_tip=is_tip))
         elif longest == 0.0:
             found.append(None)
         else:
@@ -67,6 +65,12 @@ def link_extents(robot: RobotModel) -> tuple[Extent | None, ...]:
             ball = _grown(Ball.around(points), beyond, LEAST_ASSUMED)
             found.append(Extent(_with_prior(ball, robot, index), "axes"))
     return tuple(found)
+
+
+def _of_shape(shape: Ball, points: Sequence[np.ndarray], *, is_tip: bool) -> Extent:
+    """Give the extent of a link whose shape is described."""
+    whole = Ball.joined((shape, Ball.around(points)))
+    return Extent(_grown(whole, GEOMETRY, LEAST_ASSUMED if is_tip else 2.0 * GEOMETRY), "shapes")
 
 
 def _grown(ball: Ball, margin: float, least: float) -> Ball:

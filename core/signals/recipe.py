@@ -254,6 +254,11 @@ class _Survey:
     """Mean rate (Hz) of the slowest window: rows that were never recorded make it less than the log's."""
 
 
+def _first_above(held: np.ndarray, share: float, frequency: np.ndarray) -> np.ndarray:
+    """Give, per joint, the frequency below which so large a share of the power lies."""
+    return np.array([frequency[np.argmax(own >= share)] for own in held.T])
+
+
 def _survey(log: JointLog, median_order: int) -> _Survey:
     """Read band and speed of every joint from up to eight windows of the longest segment."""
     start, stop = max(log.segments, key=lambda segment: segment[1] - segment[0])
@@ -270,10 +275,7 @@ def _survey(log: JointLog, median_order: int) -> _Survey:
     power = np.mean([_power(velocity, log.rate_hz) for velocity in velocities], axis=0)
     frequency = np.fft.rfftfreq(2 * (power.shape[0] - 1), 1.0 / log.rate_hz)
     held = np.cumsum(power, axis=0) / np.maximum(power.sum(axis=0), np.finfo(float).tiny)
-    bands, middles = (
-        np.array([frequency[np.argmax(share >= wanted)] for share in held.T])
-        for wanted in (MOTION_SHARE, 0.5)
-    )
+    bands, middles = _first_above(held, MOTION_SHARE, frequency), _first_above(held, 0.5, frequency)
     noisy = middles > NOISY_SHARE * _low_pass_hz(log.rate_hz)
     return _Survey(bands, speeds, noisy, positions, slowest)
 

@@ -46,9 +46,7 @@ class ContentDigest:
             for seen in hashes.values():
                 seen.update(message.get("body", b""))
             if message["type"] == "http.request" and not message.get("more_body", False):
-                for name, seen in hashes.items():
-                    if not hmac.compare_digest(seen.digest(), announced[name]):
-                        raise _mismatch(name, announced[name], seen.digest())
+                _compare(announced, {name: seen.digest() for name, seen in hashes.items()})
             return message
 
         await self._app(scope, hashed if announced else receive, send)
@@ -85,6 +83,12 @@ def parse_digests(text: str) -> dict[str, bytes]:
 def _stated_digests(scope: Scope) -> dict[str, bytes]:
     given = [value.decode("latin-1") for name, value in scope["headers"] if name == HEADER.lower().encode()]
     return parse_digests(", ".join(given)) if given else {}
+
+
+def _compare(announced: dict[str, bytes], seen: dict[str, bytes]) -> None:
+    for name, digest in seen.items():
+        if not hmac.compare_digest(digest, announced[name]):
+            raise _mismatch(name, announced[name], digest)
 
 
 def _unreadable(part: str) -> Problem:

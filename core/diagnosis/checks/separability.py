@@ -9,7 +9,7 @@ Bjorck & Golub 1973 (angles between subspaces).
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations, pairwise
+from itertools import chain, combinations, pairwise, product
 from typing import Literal
 
 import numpy as np
@@ -206,16 +206,22 @@ def _pairs(shown: Sequence[Shown], shares: SquareMatrix) -> Iterator[Pair]:
     for first, second in combinations(places, 2):
         known = imitations(first).get(second) or imitations(second).get(first)
         least = known.share if known else ALTERNATIVES.other_share
-        met = [
-            (shown[one].site or shown[other].site, 1.0 - shares[one, other] < least)
-            for one in places[first]
-            for other in places[second]
-            if shown[one].visible and shown[other].visible and _overlap(shown[one].site, shown[other].site)
-        ]
-        joints = tuple(sorted({joint for site, alike in met if alike for joint in site}))
-        apart = bool(met) and not any(alike for _, alike in met)
-        answer: Answer = "never" if known and not known.by_motion else "yes" if apart else "needs_motion"
-        yield Pair((first, second), answer, joints, known)
+        met = list(_shared_sites(shown, places[first], places[second]))
+        alike = [site for one, other, site in met if 1.0 - shares[one, other] < least]
+        answer: Answer = "yes" if met and not alike else "needs_motion"
+        if known and not known.by_motion:
+            answer = "never"
+        yield Pair((first, second), answer, tuple(sorted(set(chain(*alike)))), known)
+
+
+def _shared_sites(
+    shown: Sequence[Shown], first: Sequence[int], second: Sequence[int]
+) -> Iterator[tuple[int, int, Site]]:
+    """Give the visible kinds of two causes that meet, and where: a cause of the whole robot meets all."""
+    for one, other in product(first, second):
+        own, others = shown[one], shown[other]
+        if own.visible and others.visible and _overlap(own.site, others.site):
+            yield one, other, own.site or others.site
 
 
 def _overlap(first: Site, second: Site) -> bool:

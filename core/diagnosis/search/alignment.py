@@ -18,6 +18,8 @@ from ...arrays import JointSeries
 from ..causes.masking import excludes, masks
 from ..causes.time_delay import TimeDelay
 from ..thresholds.search import ALIGNMENT, SELECTION
+from .fitter import HypothesisFitter
+from .hypothesis import Hypothesis
 from .likelihood_ratio import likelihood_ratio
 from .restarts import bic
 from .state import SearchState
@@ -38,7 +40,6 @@ def restart_from_alignment(found: SearchState, later: Later) -> SearchState:
         return found
     kept = tuple(member for member in found.chosen.members if member.cause.id not in stand_ins)
     fitter = found.fitter.linearised_at(found.fitter.fit(kept))
-    without = fitter.fit(kept)
 
     @cache
     def shifted(seconds: float) -> SearchState:
@@ -52,16 +53,26 @@ def restart_from_alignment(found: SearchState, later: Later) -> SearchState:
         return found
     delay = _likeliest(lost)
     there = fitter.linearised_at(shifted(delay).chosen)
-    candidates = there.at.of_kind((TimeDelay.id, ()))
-    if not candidates:
+    start = _start_with_delay(found, there, fitter.fit(kept), delay)
+    if start is None:
         return found
-    start = there.fit((*kept, replace(candidates[0], scalars={"around": delay})))
+    other = continue_search(start, known=found.through)
+    return other if bic(other.chosen) > bic(found.chosen) + SELECTION.undecided else found
+
+
+def _start_with_delay(
+    found: SearchState, fitter: HypothesisFitter, without: Hypothesis, delay: float
+) -> SearchState | None:
+    """Put the delay beside the members of a hypothesis; None where it is not significant."""
+    candidates = fitter.at.of_kind((TimeDelay.id, ()))
+    if not candidates:
+        return None
+    start = fitter.fit((*without.members, replace(candidates[0], scalars={"around": delay})))
     brings = likelihood_ratio(without, start)
     if not start.admissible or brings < SELECTION.undecided:
-        return found
-    begun = found.at(there, start).recorded("swapped", start.members[-1], brings)
-    other = continue_search(replace(begun, excluded={}), known=found.through)
-    return other if bic(other.chosen) > bic(found.chosen) + SELECTION.undecided else found
+        return None
+    begun = found.at(fitter, start).recorded("swapped", start.members[-1], brings)
+    return replace(begun, excluded={})
 
 
 def _is_promising(lost: Lost) -> bool:

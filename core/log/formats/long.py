@@ -4,6 +4,7 @@ The column that names the joint is one of text, or of numbers under a name that 
 joint. What is left of a row are the joint's values, which become columns `value.joint`.
 """
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -78,10 +79,17 @@ def widen(table: Table) -> Table:
     return MemoryTable(columns, units, (*table.notes, note))
 
 
+def _is_key(name: str) -> bool:
+    return name.lower() in KEY_WORDS
+
+
+def _first(names: Iterable[str], matches: Callable[[str], bool]) -> str | None:
+    return next(filter(matches, names), None)
+
+
 def _long(table: Table) -> _Long | None:
     """Recognise a long table by its key and by stamps that repeat."""
-    key = next((name for name in table.names if name.lower() in KEY_WORDS), None)
-    stamp = next((name for name in table.names if _is_stamp(name)), None)
+    key, stamp = _first(table.names, _is_key), _first(table.names, _is_stamp)
     if key is None or stamp is None:
         return None
     texts = set(table.texts)
@@ -92,7 +100,7 @@ def _long(table: Table) -> _Long | None:
         return None
     stamps = np.hstack(list(table.batches([stamp])))[0]
     if np.mean(np.diff(stamps) == 0.0) < FEWEST_REPEATS * (1.0 - 1.0 / len(keys)):
-        return None
+        return None  # a row per instant whose key says something else
     named = np.array(words)
     return _Long(key, keys, [np.flatnonzero(named == word) for word in keys], stamp, values)
 

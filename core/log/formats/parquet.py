@@ -6,7 +6,7 @@ forward and only starts again when rows before its window are asked for.
 
 from bisect import bisect_right
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -87,25 +87,34 @@ def open_parquet(path: Path) -> ParquetTable:
         check_columns([field.name for field in fields])
         lengths = [metadata.row_group(group).num_rows for group in range(metadata.num_row_groups)]
         columns = [part for column in fields for part in _parts(file, column)]
-    if sum(lengths) != metadata.num_rows:
-        raise LogError(
-            "the Parquet file contradicts itself about its number of rows",
-            evidence={"footer": metadata.num_rows, "row_groups": sum(lengths)},
-            remedy="write the file again",
-        )
-    check_columns([name for name, _, _ in columns])
+    _check_counts(metadata.num_rows, sum(lengths))
+    names = tuple(name for name, _, _ in columns)
+    check_columns(names)
     lists = {name: (column.name, place) for name, column, place in columns if place != WHOLE}
-    split = dict.fromkeys(column for column, _ in lists.values())
     return ParquetTable(
         path=path,
-        names=tuple(name for name, _, _ in columns),
+        names=names,
         numeric=tuple(place != WHOLE or _is_number(column.type) for _, column, place in columns),
         samples=metadata.num_rows,
         group_starts=tuple(int(start) for start in np.cumsum([0, *lengths])[:-1]),
         lists=lists,
         texts=tuple(column.name for column in fields if pa.types.is_string(column.type)),
-        notes=(f"lists in {', '.join(map(repr, split))} split into columns, from _1 on",) if split else (),
+        notes=_notes(column for column, _ in lists.values()),
     )
+
+
+def _check_counts(rows: int, in_groups: int) -> None:
+    if in_groups != rows:
+        raise LogError(
+            "the Parquet file contradicts itself about its number of rows",
+            evidence={"footer": rows, "row_groups": in_groups},
+            remedy="write the file again",
+        )
+
+
+def _notes(split: Iterable[str]) -> tuple[str, ...]:
+    listed = ", ".join(map(repr, dict.fromkeys(split)))
+    return (f"lists in {listed} split into columns, from _1 on",) if listed else ()
 
 
 def _parts(file: pq.ParquetFile, column: pa.Field) -> list[tuple[str, pa.Field, int]]:
