@@ -45,7 +45,7 @@ class HostGuard:
             await problem_response(refusal)(scope, receive, send)
 
     def _refusal(self, scope: Scope) -> Problem | None:
-        hosts = [value for name, value in scope["headers"] if name == b"host"]
+        hosts = _hosts(scope)
         if len(hosts) != 1:
             return None if scope["http_version"] == "1.0" and not hosts else _no_host(len(hosts))
         if not self._knows(hosts[0]):
@@ -70,6 +70,10 @@ class HostGuard:
         except ValueError:
             return False
         return name in self._names or _is_address(name)
+
+
+def _hosts(scope: Scope) -> list[bytes]:
+    return [value for name, value in scope["headers"] if name == b"host"]
 
 
 def _is_address(name: str) -> bool:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Vector
+from ..arrays import LinkTable, Vector
 from ..robot.inertia import mass_properties, pseudo_inertia
 from ..robot.model import RobotModel
 from .thresholds import DESCRIPTION
@@ -75,7 +75,7 @@ def description_remarks(robot: RobotModel, makers_mass: float | None = None) -> 
     """
     if robot.prior is None:
         return ()
-    bodies = _bodies(robot)
+    bodies = _bodies(robot, robot.prior)
     found = [remark for body in bodies for remark in _of_body(body)]
     found += [*_of_units(bodies), *_of_sides(bodies)]
     if makers_mass is not None:
@@ -83,21 +83,25 @@ def description_remarks(robot: RobotModel, makers_mass: float | None = None) -> 
     return tuple(found)
 
 
-def _bodies(robot: RobotModel) -> list[_Body]:
-    table = np.zeros((0, 10)) if robot.prior is None else robot.prior
+def _bodies(robot: RobotModel, table: LinkTable) -> list[_Body]:
     lengths = [float(np.linalg.norm(link.translation)) for link in robot.links if link.antecedent]
     reach, longest = sum(lengths), max(lengths, default=0.0)
     found = []
     for index, (link, body) in enumerate(zip(robot.links, table, strict=True)):
         ends = [other.translation for other in robot.links if other.antecedent == index + 1]
-        points = np.array([np.zeros(3), *ends])
-        middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
         tip = 0.0 if ends else DESCRIPTION.tip * longest
         beyond = DESCRIPTION.beyond_metres + DESCRIPTION.beyond_share * reach + tip
-        radius = float(np.linalg.norm(points - middle, axis=1).max()) + beyond if longest else float("inf")
+        middle, radius = _ball([np.zeros(3), *ends], beyond if longest else float("inf"))
         eigenvalues = np.linalg.eigvalsh(pseudo_inertia(body))
         found.append(_Body(index + 1, link.name, *mass_properties(body), eigenvalues, middle, radius))
     return found
+
+
+def _ball(axes: list[Vector], beyond: float) -> tuple[Vector, float]:
+    """Give the middle of some points, and the radius of the ball that reaches so far beyond them, m."""
+    points = np.array(axes)
+    middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
+    return middle, float(np.linalg.norm(points - middle, axis=1).max()) + beyond
 
 
 def _of_body(body: _Body) -> Iterator[Remark]:
@@ -180,15 +184,16 @@ def _of_size(body: _Body) -> Iterator[Remark]:
         )
 
 
+def _typical_ratio(bodies: list[_Body]) -> float:
+    """Give how many times larger inertias over masses typically are than of links; 0 where none tells."""
+    sized = (body for body in bodies if np.isfinite(body.radius) and body.gyration > 0.0)
+    ratios = [body.gyration / (DESCRIPTION.usual * body.radius) for body in sized]
+    return float(np.median(ratios)) ** 2 if ratios else 0.0
+
+
 def _of_units(bodies: list[_Body]) -> list[Remark]:
     """Find a unit that all inertias share: their radii of gyration are off by the root of one factor."""
-    ratios = [
-        body.gyration / (DESCRIPTION.usual * body.radius) for body in bodies if np.isfinite(body.radius)
-    ]
-    ratios = [ratio for ratio in ratios if ratio > 0.0]
-    if not ratios:
-        return []
-    typical = float(np.median(ratios)) ** 2
+    typical = _typical_ratio(bodies)
     for factor, words in UNITS.items():
         for value, what in ((factor, "large"), (1.0 / factor, "small")):
             if 1.0 / DESCRIPTION.unit_spread < typical / value < DESCRIPTION.unit_spread:

@@ -8,6 +8,7 @@ several are best, the search goes on from each, and the fewest corrections are p
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -63,8 +64,7 @@ def _with_gravity_refined(path: Path, described: Setup, trials: Trials) -> Path:
     if not tried:
         return path
     best = min(tried, key=lambda candidate: candidate.outcome.score).hypothesis
-    refined = _with_gravity(path, described, best, trials)
-    return refined if _cost(refined) < _cost(path) else path
+    return min(path, _with_gravity(path, described, best, trials), key=_cost)
 
 
 def _tried_mountings(setup: Setup, trials: Trials) -> Iterator["_Tried"]:
@@ -155,23 +155,23 @@ def _steps(listed: list[_Bounded], present: Outcome, trials: Trials) -> Path:
     independent = trials.samples.independent * len(present.errors)
     undecided, equal = _margins(present, trials)
     tried = _tried(listed, present, trials)
-    best = min((candidate.outcome.score for candidate in tried), default=present.score)
+    scores = [candidate.outcome.score for candidate in tried]
+    best = min(scores, default=present.score)
     chance = undecided + np.log(max(len(listed), 1)) / independent  # of the best of so many
     if present.score - best < max(DECISION.least_gain, chance):
         return ()
     near = [candidate for candidate in tried if candidate.outcome.score < best + undecided]
-    chosen = next(candidate for candidate in near if candidate.outcome.score <= best + equal)
-
-    worse = (candidate.outcome.score for candidate in tried if candidate not in near)
-    others = sum(_likelihood(score - best, independent) for score in worse)
-    confidence = 1.0 / (1.0 + others + len(listed) * _likelihood(present.score - best, independent))
-    usual = [chosen, *(candidate for candidate in near if candidate is not chosen)]
+    chosen = next(place for place, candidate in enumerate(near) if candidate.outcome.score <= best + equal)
+    worse = [candidate.outcome.score - best for candidate in tried if candidate not in near]
+    others = sum(map(partial(_likelihood, independent), worse))
+    confidence = 1.0 / (1.0 + others + len(listed) * _likelihood(independent, present.score - best))
+    usual = [near[chosen], *near[:chosen], *near[chosen + 1 :]]
     return tuple(
         FoundConflict(own.hypothesis, present, own.outcome, confidence, _others(near, own)) for own in usual
     )
 
 
-def _likelihood(more: float, independent: float) -> float:
+def _likelihood(independent: float, more: float) -> float:
     """Give the likelihood, over the best one's, of a score that is larger by so much."""
     return float(np.exp(-independent * more))
 

@@ -10,7 +10,7 @@ from ..audit.contradictions import Contradiction, Correction, described_mass
 from ..audit.description import Remark
 from ..audit.entries import Entry
 from ..audit.thresholds import LOG
-from ..identification.reference import body_spread
+from ..identification.reference import bodies_spread
 from ..identification.result import Identification
 from ..robot.inertia import mass_properties
 from ..robot.model import RobotModel
@@ -80,11 +80,11 @@ def measured_part(
     }
     if judged is not None and robot.prior is not None:
         contradicted, correction = judged
-        corrected = replace(robot, prior=correction.table) if contradicted else None
+        corrected = replace(robot, prior=correction.table)
         part["contradicted"] = [
             _contradiction(one, robot, robot.prior, correction.table) for one in contradicted
         ]
-        part["corrected_robot"] = None if corrected is None else to_description(corrected)
+        part["corrected_robot"] = to_description(corrected) if contradicted else None
     return {key: plain(value) for key, value in part.items()}
 
 
@@ -157,10 +157,7 @@ def _combinations(found: Identification, prior: LinkTable) -> list[dict[str, obj
 
 def _slack(table: Matrix, prior: LinkTable) -> Vector:
     """Give by how much the described value of every combination may be off."""
-    spread = [
-        table[:, 10 * link : 10 * link + 10] @ body_spread(body, LOG.slack) for link, body in enumerate(prior)
-    ]
-    return np.asarray(np.linalg.norm(np.hstack(spread), axis=1))
+    return np.asarray(np.linalg.norm(bodies_spread(table, prior, LOG.slack), axis=1))
 
 
 def _compared(

@@ -97,7 +97,7 @@ def _correction(conflicts: Conflicts, robot: RobotModel, logs: tuple[JointLog, .
         mapping_of(log) | _clock(factor, log)
         for log, factor in zip(read, conflicts.stamp_factors, strict=True)
     ]
-    before = [mapping_of(log) for log in logs]
+    before = list(map(mapping_of, logs))
     described = {} if setup is None else _described(setup, robot)
     return {"mapping": mappings[0] if mappings != before else {}, "robot": described} | (
         {"mappings": mappings} if len(logs) > 1 and mappings != before else {}

@@ -92,17 +92,19 @@ def _causes(shown: tuple[Shown, ...]) -> list[dict[str, object]]:
     sites: dict[str, list[Shown]] = {}
     for one in shown:
         sites.setdefault(one.cause.id, []).append(one)
-    return [
-        {
-            "cause": name,
-            "title": own[0].cause.title,
-            "visible": any(one.visible for one in own),
-            "not_on_joints": sorted({joint for one in own if not one.visible for joint in one.site}),
-            "smallest": [_size(one.smallest, one.site) for one in own if one.smallest is not None],
-            "experiment": own[0].cause.experiment,
-        }
-        for name, own in sites.items()
-    ]
+    return [_of_cause(own) for own in sites.values()]
+
+
+def _of_cause(sites: list[Shown]) -> dict[str, object]:
+    cause = sites[0].cause
+    return {
+        "cause": cause.id,
+        "title": cause.title,
+        "visible": any(site.visible for site in sites),
+        "not_on_joints": sorted({joint for site in sites if not site.visible for joint in site.site}),
+        "smallest": [_size(site.smallest, site.site) for site in sites if site.smallest is not None],
+        "experiment": cause.experiment,
+    }
 
 
 def _size(smallest: Smallest, site: Site) -> dict[str, object]:

@@ -138,21 +138,29 @@ def costly_bounds(
     bounds, now = programme.bounds, programme.cost(solution)
     if now < BOUND_COST * least:
         return ()
-    links = link_bounds(programme.base.model, bounds, programme.prior)
-    held = [link for link in links if any(link.exhausted(solution.standard))]
+    held = _exhausted(programme, solution)
+    if not held:
+        return ()
 
     freed = replace(programme, bounds=replace(bounds, margin=solution.margin))
-    floor = _cost_without(held, freed, solver) if held else np.inf
+    floor = _cost_without(held, freed, solver)
     found: list[CostlyBound] = []
+    removed: list[LinkBound] = []
     while now >= BOUND_COST * floor and held:
-        removed = [costly.bound for costly in found]
         costs = [_cost_without([*removed, link], freed, solver) for link in held]
         least_cost = min(costs)
         if not np.isfinite(least_cost):
             break
-        found.append(CostlyBound(held.pop(costs.index(least_cost)), now / least_cost))
+        removed.append(held.pop(costs.index(least_cost)))
+        found.append(CostlyBound(removed[-1], now / least_cost))
         now = least_cost
     return tuple(found)
+
+
+def _exhausted(programme: Programme, solution: Solution) -> list[LinkBound]:
+    """List the links whose bodies are at one of their bounds."""
+    links = link_bounds(programme.base.model, programme.bounds, programme.prior)
+    return [link for link in links if any(link.exhausted(solution.standard))]
 
 
 def _cost_without(links: Sequence[LinkBound], programme: Programme, solver: str) -> float:

@@ -61,14 +61,14 @@ class Binding:
         {'columns': ['q1'], 'unit': ['deg']}
         """
         if self.name == TIME:
-            return {"column": self.columns[0], **({"unit": self.units[0]} if self.units else {})}
+            return dict(zip(("column", "unit"), (*self.columns, *self.units), strict=False))
         declared = self.units or (next(iter(UNITS[self.name])),) * len(self.columns)
         units = list(map(partial(_unit_of, self.name), self.gain, declared))
-        scale = [gain / unit.factor for gain, unit in zip(self.gain, units, strict=True)]
+        scale = [_rounded(gain / unit.factor) for gain, unit in zip(self.gain, units, strict=True)]
         offset = [bias / unit.factor - unit.offset for bias, unit in zip(self.bias, units, strict=True)]
         mapping: dict[str, object] = {"columns": list(self.columns), "unit": [unit.name for unit in units]}
-        if any(_rounded(value) != 1.0 for value in scale):
-            mapping["scale"] = [_rounded(value) for value in scale]
+        if {*scale} != {1.0}:
+            mapping["scale"] = scale
         if any(offset):
             mapping["offset"] = offset
         return mapping

@@ -53,11 +53,16 @@ def _told(names: tuple[str, ...], block: Series, count: int) -> dict[str, list[s
     rates = _rates(block[0], quantities)
     if len(rates) != count - 2:
         return {}
-    others = sorted({*range(count)} - {rate for _, rate in rates})
+    places = _places(quantities, rates)
+    return {"time": [names[0]]} | {channel: list(names[spans[place]]) for channel, place in places.items()}
+
+
+def _places(quantities: list[Series], rates: list[tuple[int, int]]) -> dict[str, int]:
+    """Tell which quantity is which: torque is rougher than a position, of which another is the rate."""
+    others = sorted({*range(len(quantities))} - {rate for _, rate in rates})
     position = rates[0][0] if rates else min(others, key=lambda place: _roughness(quantities[place]))
     torque = next(place for place in others if place != position)
-    places = {"position": position, "torque": torque} | ({"velocity": rates[0][1]} if rates else {})
-    return {"time": [names[0]]} | {channel: list(names[spans[place]]) for channel, place in places.items()}
+    return {"position": position, "torque": torque} | ({"velocity": rates[0][1]} if rates else {})
 
 
 def _rates(time: np.ndarray, quantities: list[Series]) -> list[tuple[int, int]]:

@@ -6,6 +6,7 @@ else sizes do. A suggestion is shown, never applied.
 """
 
 from collections.abc import Mapping, Sequence
+from itertools import chain
 
 import numpy as np
 
@@ -156,7 +157,7 @@ def _clock(channels: Mapping[str, Sequence[str]], table: Table) -> dict[str, obj
 
 def _growing(channels: Mapping[str, Sequence[str]], table: Table) -> str | None:
     """Find a column that grows from row to row as a clock does, and does not only count the rows."""
-    used = {column for columns in channels.values() for column in columns}
+    used = set(chain(*channels.values()))
     for name in table.names:
         if name in used or name in table.texts or not readings_by_column(TIME, [name], table):
             continue

@@ -48,21 +48,21 @@ def link_extents(robot: RobotModel) -> tuple[Extent | None, ...]:
     >>> link_extents(RobotModel("pendulum", (link,), (Joint("pivot"),), np.zeros(3)))
     (None,)
     """
+    carriers = {link.antecedent for link in robot.links}
     distances = [_distance(robot, link) for link in robot.links if link.antecedent]
     longest, reach = max(distances, default=0.0), sum(distances)
     margin = BODY + SHARE_OF_REACH * reach
     found: list[Extent | None] = []
     for index in range(len(robot.links)):
         points = _axis_points(robot, index)
-        is_tip = all(other.antecedent != index + 1 for other in robot.links)
-        shape = robot.shapes[index] if robot.shapes else None
+        is_tip = index + 1 not in carriers
+        shape = None if robot.shapes is None else robot.shapes[index]
         if shape is not None:
             found.append(_of_shape(shape, points, is_tip=is_tip))
         elif longest == 0.0:
             found.append(None)
         else:
-            beyond = margin + (TIP * longest if is_tip else 0.0)
-            ball = _grown(Ball.around(points), beyond, LEAST_ASSUMED)
+            ball = _grown(Ball.around(points), margin + TIP * longest * is_tip, LEAST_ASSUMED)
             found.append(Extent(_with_prior(ball, robot, index), "axes"))
     return tuple(found)
 

@@ -5,6 +5,8 @@ Only joints of this part are judged. A floating base above the chosen one, or a 
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
+from itertools import chain
 from operator import attrgetter
 
 from ..errors import RobotError
@@ -42,7 +44,7 @@ def choose_part(document: UrdfDocument, base_link: str | None, tips: Sequence[st
     joints = _depth_first(carried, base)
     moving = set(map(attrgetter("name"), joints))
     if tips:
-        moving = set().union(*(_chain(joints, base, tip) for tip in tips))
+        moving = set(chain(*map(partial(_chain, joints, base), tips)))
     return [(joint, joint.kind != "fixed" and joint.name in moving) for joint in joints]
 
 

@@ -46,7 +46,7 @@ class ContentDigest:
             for seen in hashes.values():
                 seen.update(message.get("body", b""))
             if message["type"] == "http.request" and not message.get("more_body", False):
-                _compare(announced, {name: seen.digest() for name, seen in hashes.items()})
+                _compare(announced, hashes)
             return message
 
         await self._app(scope, hashed if announced else receive, send)
@@ -85,10 +85,10 @@ def _stated_digests(scope: Scope) -> dict[str, bytes]:
     return parse_digests(", ".join(given)) if given else {}
 
 
-def _compare(announced: dict[str, bytes], seen: dict[str, bytes]) -> None:
-    for name, digest in seen.items():
-        if not hmac.compare_digest(digest, announced[name]):
-            raise _mismatch(name, announced[name], digest)
+def _compare(announced: dict[str, bytes], hashes: dict[str, "hashlib._Hash"]) -> None:
+    for name, seen in hashes.items():
+        if not hmac.compare_digest(seen.digest(), announced[name]):
+            raise _mismatch(name, announced[name], seen.digest())
 
 
 def _unreadable(part: str) -> Problem:

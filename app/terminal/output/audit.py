@@ -30,6 +30,10 @@ def print_audit(console: Console, document: Document) -> None:
         console.print("[green]By itself the description has no body that cannot be.[/]")
     for line in contradiction_lines(document):
         console.print(escape(line))
+    _print_contradicted(console, document)
+
+
+def _print_contradicted(console: Console, document: Document) -> None:
     wrong = [row for row in document["combinations"] if row["contradicted"]]
     if wrong:
         print_table(console, _columns(wrong), title="Combinations that the logs contradict")

@@ -89,7 +89,7 @@ def separability(problem: DiagnosisProblem) -> Separability:
     plain = fitter.fit(())
     fitter = fitter.linearised_at(plain)
     kinds = _kinds(fitter)
-    candidates = [candidate for kind in kinds for candidate in kind]
+    candidates = list(chain(*kinds))
     scores = dict(zip(candidates, fitter.score(plain, candidates), strict=True))
     clearest = [max(kind, key=lambda candidate: scores[candidate].clear_share) for kind in kinds]
     shown = tuple(_shown(candidate, scores[candidate], plain.fit, len(kinds)) for candidate in clearest)
@@ -121,12 +121,16 @@ def _shown(candidate: Candidate, score: Score, fit: Fit, kinds: int) -> Shown:
     return Shown(candidate.cause, candidate.site, visible, smallest)
 
 
+def _least_explained(site: Site, fit: Fit) -> float:
+    """Give what a cause has to explain on one of its joints at least; no joint stands for all."""
+    joints = [joint - 1 for joint in site] or range(len(fit.left))
+    return ENTRY.least_share * min(float(fit.left[joint] @ fit.left[joint]) for joint in joints)
+
+
 def _smallest(candidate: Candidate, score: Score, fit: Fit, kinds: int) -> Smallest | None:
     """Give the size at which the likelihood ratio reaches what entry asks for; None where a part is open."""
     level = ENTRY.level / (candidate.trials * kinds)
-    joints = [joint - 1 for joint in candidate.site] or range(len(fit.left))
-    explained = ENTRY.least_share * min(float(fit.left[joint] @ fit.left[joint]) for joint in joints)
-    statistic = max(float(chi2.isf(level, score.freedom)), explained)
+    statistic = max(float(chi2.isf(level, score.freedom)), _least_explained(candidate.site, fit))
     deviations = np.sqrt(np.maximum(np.diag(score.covariance), 0.0))
     if not deviations.all():
         return None
@@ -208,10 +212,14 @@ def _pairs(shown: Sequence[Shown], shares: SquareMatrix) -> Iterator[Pair]:
         least = known.share if known else ALTERNATIVES.other_share
         met = list(_shared_sites(shown, places[first], places[second]))
         alike = [site for one, other, site in met if 1.0 - shares[one, other] < least]
-        answer: Answer = "yes" if met and not alike else "needs_motion"
-        if known and not known.by_motion:
-            answer = "never"
+        answer = _answer(known, separated=bool(met) and not alike)
         yield Pair((first, second), answer, tuple(sorted(set(chain(*alike)))), known)
+
+
+def _answer(known: Imitation | None, *, separated: bool) -> Answer:
+    if known and not known.by_motion:
+        return "never"
+    return "yes" if separated else "needs_motion"
 
 
 def _shared_sites(

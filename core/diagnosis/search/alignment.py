@@ -7,7 +7,7 @@ which the model fits best, and the model there, from which the columns are right
 Identification (1999), ch. 7 and 10, on profiles of what is not linear.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cache
 
@@ -19,7 +19,7 @@ from ..causes.masking import excludes, masks
 from ..causes.time_delay import TimeDelay
 from ..thresholds.search import ALIGNMENT, SELECTION
 from .fitter import HypothesisFitter
-from .hypothesis import Hypothesis
+from .hypothesis import Candidate, Hypothesis
 from .likelihood_ratio import likelihood_ratio
 from .restarts import bic
 from .state import SearchState
@@ -35,10 +35,9 @@ Lost = Callable[[float], float]
 
 def restart_from_alignment(found: SearchState, later: Later) -> SearchState:
     """Give the better of a search and its restart from the exact delay, which members may stand for."""
-    stand_ins = {*masks(TimeDelay.id), *excludes(TimeDelay.id), TimeDelay.id}
     if all(member.cause.id == TimeDelay.id for member in found.chosen.members):
         return found
-    kept = tuple(member for member in found.chosen.members if member.cause.id not in stand_ins)
+    kept = _without_stand_ins(found.chosen.members)
     fitter = found.fitter.linearised_at(found.fitter.fit(kept))
 
     @cache
@@ -58,6 +57,12 @@ def restart_from_alignment(found: SearchState, later: Later) -> SearchState:
         return found
     other = continue_search(start, known=found.through)
     return other if bic(other.chosen) > bic(found.chosen) + SELECTION.undecided else found
+
+
+def _without_stand_ins(members: Sequence[Candidate]) -> tuple[Candidate, ...]:
+    """Leave out the delay, and what may stand for it."""
+    stand_ins = {*masks(TimeDelay.id), *excludes(TimeDelay.id), TimeDelay.id}
+    return tuple(member for member in members if member.cause.id not in stand_ins)
 
 
 def _start_with_delay(

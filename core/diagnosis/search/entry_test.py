@@ -64,7 +64,7 @@ def _admissible_scans(
     fitter: HypothesisFitter, now: Hypothesis, excluded_kinds: Excluded
 ) -> list[ScoredCandidate]:
     """Give the scored candidates that neither the log, nor a member, nor the search before excludes."""
-    excluded = {name for member in now.members for name in excludes(member.cause.id)}
+    excluded = set().union(*(excludes(member.cause.id) for member in now.members))
     taken = {*now.by_key, *(key for key, brings in excluded_kinds.items() if brings == np.inf)}
     return [
         scored

@@ -8,6 +8,7 @@ from bisect import bisect_right
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -86,7 +87,7 @@ def open_parquet(path: Path) -> ParquetTable:
         fields = list(file.schema_arrow)
         check_columns([field.name for field in fields])
         lengths = [metadata.row_group(group).num_rows for group in range(metadata.num_row_groups)]
-        columns = [part for column in fields for part in _parts(file, column)]
+        columns = list(chain.from_iterable(_parts(file, column) for column in fields))
     _check_counts(metadata.num_rows, sum(lengths))
     names = tuple(name for name, _, _ in columns)
     check_columns(names)
@@ -96,7 +97,7 @@ def open_parquet(path: Path) -> ParquetTable:
         names=names,
         numeric=tuple(place != WHOLE or _is_number(column.type) for _, column, place in columns),
         samples=metadata.num_rows,
-        group_starts=tuple(int(start) for start in np.cumsum([0, *lengths])[:-1]),
+        group_starts=tuple(np.cumsum([0, *lengths])[:-1].tolist()),
         lists=lists,
         texts=tuple(column.name for column in fields if pa.types.is_string(column.type)),
         notes=_notes(column for column, _ in lists.values()),
