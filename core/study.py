@@ -16,8 +16,8 @@ from .diagnosis.result import Diagnosis
 from .document.conflicts import conflict_rows, with_conflicts
 from .document.diagnosis import diagnosis_document
 from .document.identification import grouping_row, identification_document
+from .document.model.reference import reference_from_document
 from .document.numbers import plain
-from .document.reference import reference_from_document
 from .document.version import product_version
 from .dynamics.model import standard_model
 from .errors import OptionError, SolverError
@@ -36,7 +36,7 @@ from .identification.options import REPORT, IdentifyOptions, parse_diagnose_opti
 from .identification.reference import PRIOR, Reference, reference_from_prior
 from .identification.reference_score import score_reference
 from .identification.result import Identification
-from .log.assignment import assigned
+from .log.columns.assignment import assigned
 from .log.model import JointLog
 from .numerics.mapping import SERIAL, Mapper
 from .reduction.base import base_model

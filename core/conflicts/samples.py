@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays import BlockKey, InstantSeries, JointMask, JointSeries, SampleMask
-from ..log.assignment import Assignment
+from ..log.columns.assignment import Assignment
 from ..signals.condition import Motion
 from ..signals.parallel import Tile
 from ..signals.state import MotionState

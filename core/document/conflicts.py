@@ -8,7 +8,7 @@ from ..conflicts.check import Conflicts
 from ..conflicts.conflict import Hypothesis
 from ..conflicts.search import FoundConflict
 from ..conflicts.setup import Setup
-from ..log.assignment import assigned, mapping_of
+from ..log.columns.assignment import assigned, mapping_of
 from ..log.model import JointLog
 from ..robot.model import RobotModel
 from ..robot.writing import to_description

@@ -11,8 +11,8 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from ..document.caveats import caveats
-from ..document.identified import IdentifiedRobot
+from ..document.model.caveats import caveats
+from ..document.model.identified import IdentifiedRobot
 from ..dynamics.terms.coulomb import Coulomb
 from ..dynamics.terms.coupling import GearCoupling
 from ..robot.model import Link

@@ -10,8 +10,8 @@ import numpy as np
 from ..arrays import JointVector, Series
 from ..errors import LogError
 from .channels import EFFORTS
+from .columns.layout import Layout
 from .defects.stretch import Facts, Stretch
-from .layout import Layout
 
 FEWEST_ROWS = 100
 SHORTEST_SECONDS = 1.0

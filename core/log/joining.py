@@ -18,11 +18,11 @@ import pyarrow.parquet as pq
 from ..arrays import Instants, SampleMask, Samples
 from ..errors import LogError
 from .channels import CHANNELS, TIME, UNITS
-from .column_families import channel_of, name_words
+from .columns.families import channel_of, name_words
+from .columns.named_units import unit_called, unit_in_name
+from .columns.plausible_units import plausible_readings
 from .defects.stretch import count_text
 from .formats.table import Table, check_values
-from .named_units import unit_called, unit_in_name
-from .plausible_units import plausible_readings
 from .reader import open_table
 
 CUBIC_POINTS = 4

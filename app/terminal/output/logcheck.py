@@ -5,9 +5,9 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from ....core.log.binding import Binding
 from ....core.log.channels import CHANNELS
 from ....core.log.check import LogCheck, Reach
+from ....core.log.columns.binding import Binding
 from ....core.log.defects.stretch import count_text
 from ...json_text import plain
 

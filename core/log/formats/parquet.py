@@ -17,7 +17,7 @@ import pyarrow.parquet as pq
 
 from ...arrays import Indices, Matrix, Samples, Series
 from ...errors import LogError
-from ..layout import Layout
+from ..columns.layout import Layout
 from ..model import LogRows
 from .arrow import numbers
 from .table import BATCH_ROWS, check_columns, check_density, check_rows, not_numeric, reading

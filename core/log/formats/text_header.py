@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
 
-from ..named_units import UNIT_WORDS
+from ..columns.named_units import UNIT_WORDS
 
 DELIMITERS = ",;\t"
 BLANKS = " "

@@ -11,11 +11,11 @@ from tests.app.stubs import StubExecutor
 from veritorque.app.jobs.computation import Finished
 from veritorque.app.json_text import json_bytes
 from veritorque.app.services.export_files import ARTIFACTS
-from veritorque.core.document.model_file import read_model
-from veritorque.core.document.reading import identified_robot
+from veritorque.core.document.model.model_file import read_model
+from veritorque.core.document.model.reading import identified_robot
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.description import robot_from_description
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 from veritorque.core.study import IdentifyRequest, identify
 
 MEDIA_TYPES = {

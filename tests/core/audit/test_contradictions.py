@@ -13,7 +13,7 @@ from veritorque.core.audit.entries import Bodies, Entry
 from veritorque.core.export.described import urdf_of_description, urdf_with_bodies
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.description import robot_from_description
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 from veritorque.core.robot_audit import audit_robot
 from veritorque.core.study import IdentifyRequest
 

@@ -11,9 +11,9 @@ import pytest
 from scipy.io import loadmat
 
 from tests.core.export.robots import ROBOTS, identified
-from veritorque.core.document.caveats import REPRESENTATIVE
-from veritorque.core.document.identified import IdentifiedRobot
-from veritorque.core.document.model_file import write_model
+from veritorque.core.document.model.caveats import REPRESENTATIVE
+from veritorque.core.document.model.identified import IdentifiedRobot
+from veritorque.core.document.model.model_file import write_model
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.errors import OptionError, RobotError
 from veritorque.core.export.c_header import write_c_header

@@ -8,7 +8,7 @@ import pytest
 from tests.tools import shared
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.plausibility import plausibility_warnings
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 
 # KUKA-like proportions in Khalil's convention.
 QUARTER = np.pi / 2
