@@ -309,7 +309,7 @@ def test_a_log_given_twice_is_refused_because_it_is_no_more_data(tmp_path):
         identify(_request(log, log))
 
 
-def test_a_reduced_model_is_still_a_robot_that_can_exist():
+def test_a_reduced_model_is_still_physically_consistent():
     document = identify(_request(_log(noise=2.0), essential=True))
     assert document["counts"]["essential"] < document["counts"]["base"]
     assert document["feasibility"]["feasible"]

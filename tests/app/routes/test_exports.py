@@ -119,7 +119,7 @@ def test_a_result_that_holds_no_robot_is_a_problem_and_no_mistake_of_ours(tmp_pa
             assert_problem(client.get(f"{results}/{name}"), 422, "robot")
 
 
-def test_a_result_of_an_earlier_diagnosis_that_kept_no_model_gives_the_robot_before_the_cure(
+def test_a_result_of_an_earlier_diagnosis_that_kept_no_model_gives_the_robot_before_the_correction(
     tmp_path, document
 ):
     bare = {"after": {"validation": [], "base_parameters": []}}

@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 
 from tests.core.export import engines
 from tests.core.export.robots import ROBOTS, brisk, identified
-from tests.core.robot.urdf.test_urdf import TREE
 from tests.core.robot.urdf.makers import random_urdf
+from tests.core.robot.urdf.test_urdf import TREE
 from tests.tools import shared
 from veritorque.core.errors import RobotError
 from veritorque.core.export.movers import movers

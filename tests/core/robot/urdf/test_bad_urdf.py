@@ -186,7 +186,7 @@ def test_five_thousand_welded_links_are_read():
     assert len(robot_from_urdf(text).joints) == 1
 
 
-def test_a_body_that_cannot_exist_is_kept_and_said():
+def test_an_inconsistent_body_is_kept_and_reported():
     arm = robot_from_urdf(_with_inertial('<mass value="1"/>' + INERTIA.format(3)))
     assert arm.prior is not None
     assert any(
@@ -194,6 +194,6 @@ def test_a_body_that_cannot_exist_is_kept_and_said():
     )
 
 
-def test_a_body_that_can_exist_is_not_suspected():
+def test_a_consistent_body_is_not_reported():
     body = from_mass_properties(1.0, np.ones(3), np.zeros((3, 3)))
     assert plausibility_warnings(robot_from_urdf(robot(link("base") + link("tip", body) + HINGE))) == ()

@@ -110,7 +110,7 @@ def test_an_axis_that_is_not_given_is_x():
     np.testing.assert_allclose(arm.links[0].rotation @ [0, 0, 1], [1, 0, 0], atol=1e-15)
 
 
-def test_without_any_inertial_nothing_is_believed():
+def test_without_any_inertial_there_is_no_prior():
     arm = robot_from_urdf(robot(link("base", BODY) + link("tip") + joint("a", "revolute", "base", "tip")))
     assert arm.prior is None
 

@@ -115,7 +115,7 @@ def test_blank_lines_before_the_declaration_do_no_harm(start, coded):
     assert len(robot_from_urdf(coded(text)).joints) == 1
 
 
-def test_an_empty_name_of_the_robot_is_taken_and_said_and_of_a_link_refused_with_what_mends_it():
+def test_an_empty_name_of_the_robot_is_taken_and_reported_and_of_a_link_refused_with_a_remedy():
     text = robot(PAIR + HINGE).replace('name="made-up"', 'name=""')
     assert robot_from_urdf(text).name == "robot"
     assert "empty name" in _said(text)
@@ -124,7 +124,7 @@ def test_an_empty_name_of_the_robot_is_taken_and_said_and_of_a_link_refused_with
     assert caught.value.remedy == "fill in the attribute name"
 
 
-def test_angles_in_degrees_and_almost_right_ones_are_suspected_on_the_way_to_what_moves():
+def test_angles_in_degrees_and_almost_right_ones_are_reported_on_the_way_to_what_moves():
     turned = HINGE.replace('rpy="0.0 0.0 0.0"', 'rpy="90 0 1.57"')
     said = _said(robot(PAIR + turned))
     assert "joint a: roll is 90 rad, more than a turn; were degrees meant?" in said
