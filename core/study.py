@@ -1,4 +1,4 @@
-"""Tell the whole story on one page: from logs to a physically consistent robot, and how well it is known.
+"""Run the whole computation, on one page: from logs to a consistent robot, and how well it is known.
 
 This is the only module that meets every chapter; each step takes what the step before gave.
 """

@@ -27,7 +27,7 @@ HEADERS = (
     (b"cross-origin-resource-policy", b"same-origin"),
     (b"cross-origin-opener-policy", b"same-origin"),
 )
-"""What every answer tells browsers; the middleware adds it, but where the answer does not pass it."""
+"""Headers of every response; the middleware adds them, unless the response bypasses it."""
 METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE", "OPTIONS")
 DISK_FULL = (errno.ENOSPC, errno.EDQUOT)
 QUOTA_RETRY_S = "5"

@@ -128,8 +128,8 @@ def _of_body(body: _Body) -> Iterator[Remark]:
             "triangle_inequality",
             body.number,
             "inertia",
-            f"{body.label}: the principal moments {_listed(principal)} kg m2 belong to no body, "
-            "as two together are less than the third",
+            f"{body.label}: the principal moments {_listed(principal)} kg m2 violate the triangle "
+            "inequality: two together are less than the third",
             "take the inertia about the mass centre, and check its order and the signs of its products",
         )
     elif body.eigenvalues[0] < -ROUNDING * body.eigenvalues[-1]:
@@ -137,7 +137,7 @@ def _of_body(body: _Body) -> Iterator[Remark]:
             "inconsistent",
             body.number,
             "inertia",
-            f"{body.label}: its pseudo-inertia has an eigenvalue of {body.eigenvalues[0]:.3g}, as no body",
+            f"{body.label}: its pseudo-inertia has the negative eigenvalue {body.eigenvalues[0]:.3g}",
             "take the inertia about the mass centre",
         )
     yield from _of_size(body)

@@ -60,7 +60,7 @@ def _tiles(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Iterat
 
 
 def sampled(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Samples:
-    """Take every n-th kept instant of the blocks that are not held out."""
+    """Take every n-th decimated sample of the blocks that are not held out."""
     stride = max(1, -(-sum(motion.kept for motion in motions) // TRIAL.rows))
     tiles = list(_tiles(motions, held_out))
 

@@ -200,7 +200,7 @@ def _not_identifiable(found: SearchState) -> tuple[NotIdentifiable, ...]:
         NotIdentifiable(
             name,
             tuple(sorted(set(joints))),
-            "in this motion the parameters of the standard model can stand for it",
+            "in this motion the parameters of the standard model absorb it",
             by_id[name].experiment,
         )
         for name, joints in sorted(open_sites.items())

@@ -67,7 +67,7 @@ def _logs(found: Identification) -> list[str]:
 def _told_once(alike: Sequence[Defect]) -> str:
     """State the first of some defects of one kind in full, and the joints of the others."""
     others = ", ".join(str(defect.joint) for defect in alike[1:])
-    return alike[0].statement.rstrip(".") + (f" (so it is on joints {others})" if others else "")
+    return alike[0].statement.rstrip(".") + (f" (likewise on joints {others})" if others else "")
 
 
 def _cost(found: Identification) -> list[str]:

@@ -63,7 +63,7 @@ def read_log(
     media_type
         The declared content type, checked against the bytes.
     mapping
-        Which column is what in which unit; see `core.log.columns.mapping`. Default names need none.
+        Channel and unit of each column; see `core.log.columns.mapping`. Default names need none.
     name
         The log's name; the file's stem if None.
     sha256

@@ -43,7 +43,7 @@ class Observation:
     positions: JointSeries
     """A sample of the positions along the motions, rad or m."""
     kept: int
-    """Number of kept instants; a joint's factors have fewer rows where instants were unusable for it."""
+    """Number of decimated samples; a joint's factors have fewer rows where instants were unusable for it."""
 
     def joint_factors(self, chosen: tuple[int, ...] | None = None) -> tuple[Factor, ...]:
         """Merge the factors of the chosen blocks (all by default), one per joint."""
@@ -85,9 +85,9 @@ class Observation:
             (held if (block.log, block.number) in held_out else fitted).append(index)
         if held_out and not any(factor.rows for index in held for factor in self.blocks[index].factors):
             raise OptionError(
-                "no kept instant lies in the held-out blocks",
+                "no sample used lies in the held-out blocks",
                 evidence={"instants kept": self.kept, "blocks held out": len(held_out)},
-                remedy="keep more instants (smaller decimation, longer log), or hold out longer blocks",
+                remedy="use more samples (smaller decimation, longer log), or hold out longer blocks",
             )
         return tuple(fitted), tuple(held)
 
@@ -239,7 +239,7 @@ def compare(plan: ColumnPlan, tile: Tile, parameters: BaseParameters) -> tuple[J
 
 @dataclass(frozen=True, eq=False)
 class ResidualTile:
-    """Carry filtered torque and residual (measured minus predicted), N m, of all joints at kept instants."""
+    """Carry filtered torque and residual (measured minus predicted), N m, of all joints, decimated."""
 
     time: Samples
     torque: JointSeries

@@ -105,7 +105,7 @@ def test_every_module_of_the_project_imports_only_what_it_may():
     assert result.returncode == 0, result.stdout + result.stderr
 
 
-def test_the_imports_that_the_story_needs_are_allowed(tmp_path):
+def test_the_imports_that_the_method_needs_are_allowed(tmp_path):
     lay_out(tmp_path, ALLOWED)
     result = lint(tmp_path)
     assert result.returncode == 0, result.stdout + result.stderr

@@ -1,4 +1,4 @@
-"""Hold the whole story together: one request, one document, every failure said by name."""
+"""Test the whole computation: one request, one document, every failure said by name."""
 
 import json
 from collections.abc import Callable, Iterator
@@ -169,7 +169,7 @@ REFUSED: dict[str, tuple[Callable[[], IdentifyRequest], type[VeritorqueError], s
     "a hold-out in a stretch that is too short": (
         lambda: _request(_interrupted(990, 1020), validation={"blocks": 200, "fraction": 0.005}),
         OptionError,
-        "no kept instant lies in the held-out blocks",
+        "no sample used lies in the held-out blocks",
     ),
     "a decimation that leaves blocks without instants": (
         lambda: _request(filter={"decimation": 20}, validation={"blocks": 200}),

@@ -110,7 +110,7 @@ def _best_on_holdout(
     ranked = sorted(
         whole, key=lambda trial: (trial.members[-1].cause.traits.transient, -bic_gain(now, trial))
     )
-    deserves = (
+    entering = (
         trial
         for trial in ranked
         if trial.admissible
@@ -119,7 +119,7 @@ def _best_on_holdout(
         and passes_holdout(fitter, now, trial)
         and not is_masked(fitter, trial, len(now.members), now)
     )
-    return next(deserves, None)
+    return next(entering, None)
 
 
 def _passes_entry_test(

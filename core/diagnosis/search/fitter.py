@@ -234,7 +234,7 @@ class HypothesisFitter:
             return found
         return self.fit(members)
 
-    def fit_beneath(self, trial: Hypothesis, index: int) -> Hypothesis:
+    def fit_without(self, trial: Hypothesis, index: int) -> Hypothesis:
         """Fit a hypothesis without one member, at the noise that it has with it.
 
         Scalars are refined on top of this: noise that has absorbed the effect hardly depends on them.

@@ -93,12 +93,12 @@ def test_a_cause_whose_columns_the_model_has_all_counts_as_one(arm):
     assert freedom(arm, viscous) == 1
 
 
-def test_beneath_a_hypothesis_its_last_member_scores_what_the_hypothesis_found():
+def test_without_it_the_last_member_of_a_hypothesis_scores_what_the_hypothesis_found():
     """Regressing on what is left at the same noise is fitting both at once (Frisch & Waugh 1933)."""
     fitter = fitter_of(measured_arm(WAVE), ())
     member = candidate(made_up("wave", wave, RATES), {"rate": TRUE})
     whole = fitter.fit((member,))
-    (found,) = fitter.scan(fitter.fit_beneath(whole, len(whole.members) - 1), [member])
+    (found,) = fitter.scan(fitter.fit_without(whole, len(whole.members) - 1), [member])
     np.testing.assert_allclose(found.values, whole.fit.values[whole.columns_of(0)], rtol=1e-6)
 
 
