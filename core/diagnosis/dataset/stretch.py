@@ -18,7 +18,7 @@ class Stretch:
     parallel: ParallelFilter
     first: int
     rows: slice
-    """Where the first decimated sample lies in `state`, and the rows of the decimated samples in the data set."""
+    """Where the first decimated sample lies in `state`, and the rows of all of them in the data set."""
 
     @property
     def kept(self) -> int:
