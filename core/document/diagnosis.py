@@ -127,7 +127,7 @@ def _extension(before: Identification, after: Identification) -> dict[str, objec
 
 
 def _identified_robot(found: Identification) -> IdentifiedRobot:
-    """Give what was identified as files want it."""
+    """Give what was identified as files need it."""
     base = found.base
     rows = range(len(base.kept))
     return IdentifiedRobot(

@@ -1,6 +1,6 @@
 """Write an identified robot as a C header: its parameters as constants, and the torque they stand for.
 
-Controllers want the model without a library. The header is C99, needs math.h alone, and says units, order and
+Controllers need the model without a library. The header is C99, needs math.h alone, and says units, order and
 conventions beside every number.
 """
 

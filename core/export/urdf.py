@@ -18,7 +18,7 @@ from .elements import child, comment, document
 from .movers import Mover, free_name, movers
 
 UNLIMITED = 1e9
-"""URDF wants effort and velocity limits: N m and rad/s where none is known."""
+"""URDF requires effort and velocity limits: N m and rad/s where none is known."""
 LONGEST_STROKE = 1e3
 """Limits of a prismatic joint, m, which URDF requires even if none are known."""
 

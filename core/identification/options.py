@@ -18,7 +18,7 @@ from ..signals.recipe import FilterOptions
 from ..validation.holdout import HoldOut
 
 DIAGNOSIS_HOLD_OUT = HoldOut(fraction=0.25, blocks=40)
-"""A diagnosis wants many held-out blocks: the interval of a gain is drawn from them."""
+"""A diagnosis needs many held-out blocks: the interval of a gain is drawn from them."""
 
 APPLY, REPORT = "apply", "report"
 

@@ -1,6 +1,6 @@
 """Check that a body arrives as it was sent, where its sender announces a digest.
 
-The digest covers the body as it travels, a form with its boundaries included; an upload that was spoilt on
+The digest covers the body as it travels, a form with its boundaries included; an upload that was corrupted on
 the way is refused before anything is made of it. Source: RFC 9530, Digest Fields (2024), sections 2 and 5.
 """
 

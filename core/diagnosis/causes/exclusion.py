@@ -97,8 +97,8 @@ EXCLUSIONS: tuple[Exclusion, ...] = (
     ),
     Exclusion(
         "encoder_eccentricity",
-        f"the amplitude exceeds {ADMISSIBLE.encoder_eccentricity:g} rad, nor surely where it exceeds "
-        f"{ADMISSIBLE.eccentricity_represented:g} rad",
+        f"the amplitude exceeds {ADMISSIBLE.encoder_eccentricity:g} rad; above "
+        f"{ADMISSIBLE.eccentricity_represented:g} rad the confidence is limited",
         "its first order errs by half of it, and a disc so far off its axis could not be read",
     ),
     Exclusion(

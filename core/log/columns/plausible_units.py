@@ -49,7 +49,7 @@ def plausible_readings(channel: str, values: Vector) -> list[str]:
         for unit in CHANNELS[channel].quantity.units
         if unit.usual[0] <= size < unit.usual[1] and (whole or not unit.needs_scale)
     ]
-    if whole:  # whole numbers speak for counts before anything else
+    if whole:  # whole numbers are most plausibly counts
         fitting.sort(key=lambda unit: not unit.needs_scale)
     return [f"{unit.name}: {seen}; {unit.reason}" for unit in fitting]
 
