@@ -82,7 +82,7 @@ def measured_part(
         contradicted, correction = judged
         corrected = replace(robot, prior=correction.table)
         part["contradicted"] = [
-            _contradiction(one, robot, robot.prior, correction.table) for one in contradicted
+            _contradiction(found_entry, robot, robot.prior, correction.table) for found_entry in contradicted
         ]
         part["corrected_robot"] = to_description(corrected) if contradicted else None
     return {key: plain(value) for key, value in part.items()}

@@ -90,8 +90,8 @@ def _identifiable(found: Identification) -> list[dict[str, object]]:
 def _causes(shown: tuple[Shown, ...]) -> list[dict[str, object]]:
     """Say per cause on which joints these logs can show it, and from which size on."""
     sites: dict[str, list[Shown]] = {}
-    for one in shown:
-        sites.setdefault(one.cause.id, []).append(one)
+    for site in shown:
+        sites.setdefault(site.cause.id, []).append(site)
     return [_of_cause(own) for own in sites.values()]
 
 
@@ -130,7 +130,7 @@ def _matrix(pairs: tuple[Pair, ...]) -> dict[str, dict[str, str]]:
 
 def _not_separable(separable: Separability) -> list[dict[str, object]]:
     """List the pairs that are not told apart, of causes that these logs can show at all."""
-    visible = {one.cause.id for one in separable.shown if one.visible}
+    visible = {site.cause.id for site in separable.shown if site.visible}
     return [
         _pair(pair) for pair in separable.pairs if pair.answer != "yes" and visible.issuperset(pair.causes)
     ]

@@ -120,7 +120,7 @@ def _solve_with_large_links(
     solution = _solve_with_light_links(programme, solver, least)
     costly = costly_bounds(programme, solution, solver, least)
     declared = {size.link for size in programme.bounds.sizes}
-    larger = tuple(one.bound.link for one in costly if one.bound.link not in declared)
+    larger = tuple(each.bound.link for each in costly if each.bound.link not in declared)
     if not larger:
         return solution, costly
     without = replace(programme, bounds=replace(programme.bounds, exempt=larger))

@@ -48,7 +48,9 @@ def has_impossible_joint(found: Identification) -> bool:
     """
     costly = _joint_cost(found) > HIGH_COST
     judged = found.validation or found.fit
-    return any(costly[one.joint - 1] and quality(one.nrmse_of_rms_percent) == "failed" for one in judged)
+    return any(
+        costly[score.joint - 1] and quality(score.nrmse_of_rms_percent) == "failed" for score in judged
+    )
 
 
 def _logs(found: Identification) -> list[str]:

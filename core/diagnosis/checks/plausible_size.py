@@ -50,4 +50,4 @@ def _stood_for(speed: Samples, effect: Samples) -> Samples:
 def _is_determined(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> bool:
     cause, solved = chosen.members[index].cause, chosen.in_joint_units(index, fitter.dataset.robot)
     quantities = cause.quantities(solved)
-    return not quantities or bool(np.max([one.clearness for one in quantities]) > SIZE.clearness)
+    return not quantities or bool(np.max([quantity.clearness for quantity in quantities]) > SIZE.clearness)

@@ -42,7 +42,7 @@ def as_doubtful(finding: Finding) -> Finding:
 
 def _joints_not_fitted(found: Diagnosis) -> Iterator[int]:
     """Give the joints that keep more than half of their RMS torque, and not as noise."""
-    structured = {one.joint for one in found.predictable if one.interval[0] > VERDICT.unexplained_share}
+    structured = {share.joint for share in found.predictable if share.interval[0] > VERDICT.unexplained_share}
     for joint in structured:
         usable = found.dataset.usable[:, joint - 1]
         left = np.sum(found.residual_after[usable, joint - 1] ** 2)

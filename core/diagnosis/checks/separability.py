@@ -205,13 +205,13 @@ def _pairs(shown: Sequence[Shown], shares: SquareMatrix) -> Iterator[Pair]:
         Per pair of kinds, the share of the one's clearest directions that the other can imitate.
     """
     places: dict[str, list[int]] = {}
-    for place, one in enumerate(shown):
-        places.setdefault(one.cause.id, []).append(place)
+    for place, kind in enumerate(shown):
+        places.setdefault(kind.cause.id, []).append(place)
     for first, second in combinations(places, 2):
         known = imitations(first).get(second) or imitations(second).get(first)
         least = known.share if known else ALTERNATIVES.other_share
         met = list(_shared_sites(shown, places[first], places[second]))
-        alike = [site for one, other, site in met if 1.0 - shares[one, other] < least]
+        alike = [site for first_place, other, site in met if 1.0 - shares[first_place, other] < least]
         answer = _answer(known, separated=bool(met) and not alike)
         yield Pair((first, second), answer, tuple(sorted(set(chain(*alike)))), known)
 
@@ -226,10 +226,10 @@ def _shared_sites(
     shown: Sequence[Shown], first: Sequence[int], second: Sequence[int]
 ) -> Iterator[tuple[int, int, Site]]:
     """Give the visible kinds of two causes that meet, and where: a cause of the whole robot meets all."""
-    for one, other in product(first, second):
-        own, others = shown[one], shown[other]
+    for first_place, other in product(first, second):
+        own, others = shown[first_place], shown[other]
         if own.visible and others.visible and _overlap(own.site, others.site):
-            yield one, other, own.site or others.site
+            yield first_place, other, own.site or others.site
 
 
 def _overlap(first: Site, second: Site) -> bool:

@@ -93,7 +93,7 @@ class HypothesisFitter:
         """Give a fitter of the same rows with another torque, for fits; its candidates stay as they are."""
 
         def replaced(rows: tuple[JointRows, ...]) -> tuple[JointRows, ...]:
-            return tuple(replace(one, torque=torque[one.rows, joint]) for joint, one in enumerate(rows))
+            return tuple(replace(own, torque=torque[own.rows, joint]) for joint, own in enumerate(rows))
 
         rows = FitRows(*map(replaced, (self.rows.fitted, self.rows.held_out, self.rows.everywhere)))
         return replace(self, dataset=replace(self.dataset, torque=torque), rows=rows)

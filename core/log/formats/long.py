@@ -128,7 +128,7 @@ def _shared_stamps(found: _Long, stamps: np.ndarray) -> tuple[np.ndarray, list[n
     every, counts = np.unique(np.concatenate(own), return_counts=True)
     in_order = all(np.all(np.diff(stamps) > 0.0) for stamps in own)
     if in_order and np.count_nonzero(counts == len(own)) > MOST_SHARED * len(every):
-        return every, [np.searchsorted(every, one) for one in own]
+        return every, [np.searchsorted(every, stamps_of_joint) for stamps_of_joint in own]
     raise LogError(
         f"the rows of different {found.key}s have different stamps",
         evidence={
