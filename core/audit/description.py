@@ -147,7 +147,7 @@ def _of_size(body: _Body) -> Iterator[Remark]:
     if not np.isfinite(body.radius):
         return
     away = float(np.linalg.norm(body.centre - body.middle))
-    if away > DESCRIPTION.outside * body.radius:
+    if away > body.radius:
         yield Remark(
             "centre_outside",
             body.number,
@@ -156,7 +156,7 @@ def _of_size(body: _Body) -> Iterator[Remark]:
             f"{body.radius:.3g} m",
             "give the mass centre in m in the link's frame",
         )
-    if body.gyration > DESCRIPTION.wide * body.radius:
+    if body.gyration > body.radius:
         yield Remark(
             "inertia_too_large",
             body.number,

@@ -20,15 +20,9 @@ class Description:
     tip: float = 0.5
     """Length of a link without a successor, as a share of the longest link. Set by hand: its tool is in no
     table."""
-    outside: float = 1.0
-    """Distance of a mass centre from the middle of its link, in radii of the ball that holds the link, up to
-    which it is within. A law of geometry."""
-    wide: float = 1.0
-    """Radius of gyration in the same radii up to which it belongs to a body. A law: mass within a ball has
-    at most one."""
     usual: float = 0.3
-    """Radius of gyration in the same radii that a link has as a rule. Set by hand: a uniform ball has 0.77,
-    and links fill a part of theirs."""
+    """Radius of gyration that a link has as a rule, over the radius of the ball that holds it. Set by hand: a
+    uniform ball has 0.77, and links fill a part of theirs."""
     compact: float = 0.01
     """Radius of gyration over that radius below which an inertia is none of a link. Set by hand: a steel ball
     of the same mass has 0.05 and more."""

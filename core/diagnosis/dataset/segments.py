@@ -118,9 +118,9 @@ def _settled(at: Indices, samples: int, period: float) -> np.ndarray:
 def _clear(turns: np.ndarray, at: Indices, period: float) -> JointMask:
     """Tell which decimated samples are further from every reversal than the filter's main lobe.
 
-    `period` is that of the cut-off, in samples.
+    The lobe is as long as a period of the cut-off, in samples.
     """
-    reach = int(np.ceil(ROWS.reversal_periods * period))
+    reach = int(np.ceil(period))
     counts = np.cumsum(np.pad(turns, ((1, 0), (0, 0))), axis=0)
     low, high = np.maximum(at - reach, 0), np.minimum(at + reach + 1, len(turns))
     return np.asarray(counts[high] == counts[low])
