@@ -42,15 +42,19 @@ def plain(value: object) -> object:
     >>> plain({"row": (1, float("nan"))})
     {'row': [1, 'nan']}
     """
-    if value is None or isinstance(value, bool | int):
+    if isinstance(value, bool | int | None):
         return value
     if isinstance(value, float):
         return float(value) if math.isfinite(value) else str(float(value))
     if isinstance(value, str):
-        return value if len(value) <= LONGEST_TEXT else value[:LONGEST_TEXT] + " ..."
+        return _cut(value)
     if isinstance(value, Mapping):
-        return {str(name): plain(entry) for name, entry in value.items()}
+        return dict(zip(map(str, value), map(plain, value.values()), strict=True))
     if isinstance(value, Sequence | set | frozenset):
-        return [plain(entry) for entry in list(value)[:LONGEST_LIST]]
+        return list(map(plain, list(value)[:LONGEST_LIST]))
     listed = getattr(value, "tolist", None)  # numpy arrays and scalars
-    return plain(str(value)) if listed is None else plain(listed())
+    return _cut(str(value)) if listed is None else plain(listed())
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= LONGEST_TEXT else text[:LONGEST_TEXT] + " ..."

@@ -11,7 +11,8 @@ import numpy as np
 
 from benchmarks.figures import Figure, processor_seconds
 from tests.plant.cases import Case, draw, draw_clean
-from veritorque.core.diagnosis.diagnose import DiagnosisProblem, diagnose
+from veritorque.core.diagnosis.diagnose import diagnose
+from veritorque.core.diagnosis.problem import DiagnosisProblem
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.reduction.base import base_model
 from veritorque.core.regressor.columns import ColumnPlan

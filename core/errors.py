@@ -6,7 +6,7 @@ guessing.
     VeritorqueError
     |-- RobotError        the description of the robot cannot be used
     |-- LogError          the measured data cannot be used
-    |-- OptionError       a request asks for something that does not exist or makes no sense
+    |-- OptionError       a request asks for something that does not exist or is not valid
     |-- ExcitationError   the motion cannot tell what was asked of it
     `-- SolverError       the optimiser stopped without an optimum
 """
@@ -61,7 +61,7 @@ class LogError(VeritorqueError):
 
 
 class OptionError(VeritorqueError):
-    """A request asks for something that does not exist or makes no sense."""
+    """A request asks for something that does not exist or is not valid."""
 
 
 class ExcitationError(VeritorqueError):

@@ -60,6 +60,6 @@ def _doubt(found: Identification, conflicts: Conflicts) -> str | None:
     if error > LOG.tolerated_percent:
         return (
             f"the model predicts held-out torque only to {error:.3g} % of its RMS, more than "
-            f"{LOG.tolerated_percent:g} %: whichever bodies it has, it is not this robot's"
+            f"{LOG.tolerated_percent:g} %: no bodies of this robot explain it"
         )
     return None

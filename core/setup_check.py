@@ -7,8 +7,8 @@ searching.
 from collections.abc import Mapping
 from dataclasses import replace
 
-from .diagnosis.diagnose import DiagnosisProblem
-from .diagnosis.separability import Separability, separability
+from .diagnosis.checks.separability import Separability, separability
+from .diagnosis.problem import DiagnosisProblem
 from .document.conflicts import conflict_rows, with_conflicts
 from .document.setup_check import check_document
 from .document.version import product_version

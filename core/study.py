@@ -1,4 +1,4 @@
-"""Tell the whole story on one page: from logs to a physically consistent robot, and how well it is known.
+"""Run the whole computation, on one page: from logs to a consistent robot, and how well it is known.
 
 This is the only module that meets every chapter; each step takes what the step before gave.
 """
@@ -9,15 +9,15 @@ from functools import cache
 from pathlib import Path
 
 from .conflicts.check import Conflicts, check
-from .diagnosis.diagnose import DiagnosisProblem
+from .diagnosis.checks.reservations import with_reservations
 from .diagnosis.diagnose import diagnose as find_causes
-from .diagnosis.reservations import with_reservations
+from .diagnosis.problem import DiagnosisProblem
 from .diagnosis.result import Diagnosis
 from .document.conflicts import conflict_rows, with_conflicts
 from .document.diagnosis import diagnosis_document
 from .document.identification import grouping_row, identification_document
+from .document.model.reference import reference_from_document
 from .document.numbers import plain
-from .document.reference import reference_from_document
 from .document.version import product_version
 from .dynamics.model import standard_model
 from .errors import OptionError, SolverError
@@ -36,7 +36,7 @@ from .identification.options import REPORT, IdentifyOptions, parse_diagnose_opti
 from .identification.reference import PRIOR, Reference, reference_from_prior
 from .identification.reference_score import score_reference
 from .identification.result import Identification
-from .log.assignment import assigned
+from .log.columns.assignment import assigned
 from .log.model import JointLog
 from .numerics.mapping import SERIAL, Mapper
 from .reduction.base import base_model

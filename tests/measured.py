@@ -12,7 +12,7 @@ from veritorque.core.log.model import JointLog
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.model import RobotModel
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 
 FRANKA_ROWS = 20_544
 TX40_TRAIN = (500, round((0.1 + 0.7 * 7.3) * 5000))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from ...core.document.answer import model_name, plain_document
+from ...core.document.model.answer import model_name, plain_document
 from ...core.errors import OptionError
 
 if TYPE_CHECKING:

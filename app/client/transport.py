@@ -165,7 +165,7 @@ def _object(answer: httpx2.Response) -> Document:
         document = None
     if not isinstance(document, dict):
         raise NoAnswerError(
-            f"what answers at {answer.url} does not speak as the service does",
+            f"what answers at {answer.url} does not answer as the service does",
             evidence={"status": answer.status_code, "media_type": answer.headers.get("content-type", "")},
             remedy="correct the address",
         )

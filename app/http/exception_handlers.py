@@ -27,7 +27,7 @@ HEADERS = (
     (b"cross-origin-resource-policy", b"same-origin"),
     (b"cross-origin-opener-policy", b"same-origin"),
 )
-"""What every answer tells browsers; the middleware adds it, but where the answer does not pass it."""
+"""Headers of every response; the middleware adds them, unless the response bypasses it."""
 METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE", "OPTIONS")
 DISK_FULL = (errno.ENOSPC, errno.EDQUOT)
 QUOTA_RETRY_S = "5"
@@ -66,12 +66,10 @@ async def _on_http(request: Request, error: Exception) -> Response:
     status = error.status_code if isinstance(error, HTTPException) else 500
     if status == KINDS["method-not-allowed"][0]:
         return problem_response(_wrong_method(request))
-    kind = _KIND_OF_STATUS.get(status, "bad-request")
-    cause = str(error.detail) if isinstance(error, HTTPException) else ""
-    path = request.url.path
+    kind, path = _KIND_OF_STATUS.get(status, "bad-request"), request.url.path
+    cause, remedy = str(getattr(error, "detail", "")), "send the request as /docs shows it"
     if kind == "not-found":
-        cause = f"there is nothing at {path}"
-    remedy = "/docs lists all resources" if kind == "not-found" else "send the request as /docs shows it"
+        cause, remedy = f"there is nothing at {path}", "/docs lists all resources"
     return problem_response(Problem(kind, cause, evidence={"path": path}, remedy=remedy))
 
 

@@ -45,17 +45,21 @@ class HostGuard:
             await problem_response(refusal)(scope, receive, send)
 
     def _refusal(self, scope: Scope) -> Problem | None:
-        hosts = [value for name, value in scope["headers"] if name == b"host"]
+        hosts = _hosts(scope)
         if len(hosts) != 1:
             return None if scope["http_version"] == "1.0" and not hosts else _no_host(len(hosts))
-        if hosts[0] not in self._known:
-            if not self._is_ours(hosts[0].decode("latin-1")):
-                return _not_ours(hosts[0].decode("latin-1"))
-            if len(self._known) < MOST_REMEMBERED:
-                self._known.add(hosts[0])
+        if not self._knows(hosts[0]):
+            return _not_ours(hosts[0].decode("latin-1"))
         if scope["method"] not in SAFE_METHODS and _from_elsewhere(scope, hosts[0]):
             return _other_site()
         return None
+
+    def _knows(self, host: bytes) -> bool:
+        """Tell whether a host is one of ours, and remember it."""
+        known = host in self._known or self._is_ours(host.decode("latin-1"))
+        if known and len(self._known) < MOST_REMEMBERED:
+            self._known.add(host)
+        return known
 
     def _is_ours(self, host: str) -> bool:
         try:
@@ -66,6 +70,10 @@ class HostGuard:
         except ValueError:
             return False
         return name in self._names or _is_address(name)
+
+
+def _hosts(scope: Scope) -> list[bytes]:
+    return [value for name, value in scope["headers"] if name == b"host"]
 
 
 def _is_address(name: str) -> bool:

@@ -88,6 +88,25 @@ def _query_names(dependant: Dependant) -> Iterator[str]:
         yield from _query_names(inner)
 
 
+def _headers(dependant: Dependant, request: Request) -> dict[str, object]:
+    """Read the headers that an endpoint takes; None for those that are missing.
+
+    Raises
+    ------
+    Problem
+        If one is not what the contract allows (422).
+    """
+    taken: dict[str, object] = {}
+    for field in dependant.header_params:
+        given = request.headers.get(field.alias)
+        if given is not None:
+            given, errors = field.validate(given, {}, loc=("header", field.alias))
+            if errors:
+                raise invalid(errors)
+        taken[field.name] = given
+    return taken
+
+
 def _takes_more(dependant: Dependant) -> bool:
     more = dependant.query_params or dependant.cookie_params or dependant.body_params
     return bool(more) or any(inner.call is not context_of for inner in dependant.dependencies)
@@ -102,14 +121,7 @@ def _direct_handler(dependant: Dependant) -> Handler | None:
     request_name = dependant.request_param_name
 
     async def answer(request: Request) -> Response:
-        taken: dict[str, Any] = dict(request.path_params)
-        for field in dependant.header_params:
-            given = request.headers.get(field.alias)
-            if given is not None:
-                given, errors = field.validate(given, {}, loc=("header", field.alias))
-                if errors:
-                    raise invalid(errors)
-            taken[field.name] = given
+        taken: dict[str, Any] = request.path_params | _headers(dependant, request)
         for name in contexts:
             taken[name] = await context_of(request)
         if request_name is not None:

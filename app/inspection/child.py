@@ -51,7 +51,7 @@ def _answer_in_time(work: Work, budget: Budget) -> bytes:
         return FAILURE + json_bytes(problem_of_damage(error).document())
     except MemoryError:
         return FAILURE + json_bytes(problem_of(too_much_memory(budget)).document())
-    except Exception:  # noqa: BLE001  (the boundary of the process: the service decides what its client hears)
+    except Exception:  # noqa: BLE001  (the boundary of the process: the service decides what its client is told)
         return TRACE + traceback.format_exc().encode(errors="replace")
 
 

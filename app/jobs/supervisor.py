@@ -125,7 +125,7 @@ class Supervisor:
 
 
 def _said(process: "subprocess.Popen[bytes]") -> Iterator[bytes]:
-    """Read what a worker says until it ends, or until its pipe is closed beneath the reader."""
+    """Read what a worker says until it ends, or until its pipe is closed during the reading."""
     try:
         yield from process.stdout or ()
     except ValueError:  # what Python says of a file that another thread closes meanwhile

@@ -1,4 +1,4 @@
-"""Define the kind `audit`: which bodies of a robot's description cannot be, and which logs contradict."""
+"""Define the kind `audit`: which described bodies are impossible, and which entries logs contradict."""
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -39,7 +39,7 @@ class Audit(Identify):
         flags={},
         alarm=Alarm(
             "fail_on_findings",
-            "Exit with 1 if a body cannot be, or is contradicted.",
+            "Exit with 1 if a body is impossible or contradicted.",
             lambda document: bool(document["remarks"] or document["contradicted"]),
         ),
     )

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Check(Identify):
-    """Check a robot and its logs before anything is identified in earnest."""
+    """Check a robot and its logs before anything is identified."""
 
     name = "check"
     result = CheckDocument

@@ -120,7 +120,7 @@ class JobKind(ABC, Generic[Options]):
         Raises
         ------
         OptionError
-            If an option does not exist or makes no sense.
+            If an option does not exist or is not valid.
         """
 
     @abstractmethod

@@ -107,16 +107,27 @@ def _database(store: Store) -> Iterator[Finding]:
     yield Finding("database", "whole and writable: " + ", ".join(f"{n} {name}" for name, n in counts.items()))
 
 
-def _blobs(store: Store) -> Iterator[Finding]:
-    kept = store.blobs.marks().keys()
-    needed = store.needed()  # after the files are listed: a blob is written before its record
-    damaged = []
-    for sha256 in sorted(kept & needed):
+def _damaged(store: Store, kept: list[str]) -> Iterator[str]:
+    """Name the blobs whose bytes do not have their digest."""
+    for sha256 in kept:
         try:
             store.blobs.check(sha256)
         except DamagedError as error:
-            damaged.append(f"{sha256} ({error.evidence})")
-    missing = [sha256 for sha256 in sorted(needed - kept) if not _exists(store, sha256)]
+            yield f"{sha256} ({error.evidence})"
+
+
+def _missing(store: Store, needed: list[str]) -> Iterator[str]:
+    """Name the blobs that are not there: some may have been kept since they were listed."""
+    for sha256 in needed:
+        if not _exists(store, sha256):
+            yield sha256
+
+
+def _blobs(store: Store) -> Iterator[Finding]:
+    kept = store.blobs.marks().keys()
+    needed = store.needed()  # after the files are listed: a blob is written before its record
+    damaged = list(_damaged(store, sorted(kept & needed)))
+    missing = list(_missing(store, sorted(needed - kept)))
     lost = "restore them from a backup, or delete the logs and jobs that need them: "
     for subject, found in (("damaged bytes", damaged), ("missing bytes", missing)):
         if found:

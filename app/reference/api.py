@@ -6,7 +6,7 @@ docs/api.md lists every request with its parameters and responses, and every doc
 
 import json
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 Node = Mapping[str, Any]
@@ -124,15 +124,22 @@ def _variants(schema: Node) -> Iterator[Node]:
         yield from _variants(variant)
 
 
+def _linked(name: str) -> str:
+    return "any" if name == "JsonValue" else f"[{name}](#{name.lower()})"
+
+
+def _listed(values: Iterable[object]) -> str:
+    return ", ".join(f"`{value}`" for value in values)
+
+
 def _type(schema: Node) -> str:
     """Name what a schema allows, with a link where it is a document of its own."""
     if "$ref" in schema:
-        name = schema["$ref"].rsplit("/", 1)[-1]
-        return "any" if name == "JsonValue" else f"[{name}](#{name.lower()})"
+        return _linked(schema["$ref"].rsplit("/", 1)[-1])
     if "anyOf" in schema:
         return " or ".join(dict.fromkeys(_type(variant) for variant in schema["anyOf"]))
     if "enum" in schema or "const" in schema:
-        return ", ".join(f"`{value}`" for value in schema.get("enum", [schema.get("const")]))
+        return _listed(schema.get("enum", [schema.get("const")]))
     if schema.get("type") == "array":
         return f"list of {_type(schema.get('items', {}))}"
     return _object(schema) if schema.get("type") == "object" else str(schema.get("type", "any"))

@@ -1,4 +1,4 @@
-"""Serve the whole story in one request: robot and log in, result out."""
+"""Serve a whole analysis in one request: robot and log in, result out."""
 
 from typing import Annotated
 

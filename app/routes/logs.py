@@ -45,7 +45,7 @@ FORM_SCHEMA = {
             "mapping names others"
         ),
         "mapping": text_part(
-            f"JSON, as text or as a file: which column is what, in which unit, e.g. {MAPPING}", default="{}"
+            f"JSON, as text or as a file: channel and unit of each column, e.g. {MAPPING}", default="{}"
         ),
     },
     "additionalProperties": False,

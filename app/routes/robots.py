@@ -125,7 +125,7 @@ async def audit_robot(
         str | None, Header(max_length=200, description="wait=N: with logs, wait up to N seconds (at most 60)")
     ] = None,
 ) -> Response:
-    """Find masses, mass centres and inertias that cannot be; with logs, a job finds those they contradict."""
+    """Find impossible masses, mass centres and inertias; with logs, a job finds those they contradict."""
     require_media_type(request, ("application/json",))
     asked = check(AuditRequest, parse_json(await request.body()))
     robot = await anyio.to_thread.run_sync(context.catalogue.robot, robot_id)

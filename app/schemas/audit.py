@@ -78,7 +78,7 @@ class TotalMass(Open):
 
 
 class AuditDocument(Open):
-    """Which bodies of a description cannot be, and which entries logs contradict."""
+    """Which bodies of a description are impossible, and which entries logs contradict."""
 
     schema_version: str
     kind: Literal["audit"]

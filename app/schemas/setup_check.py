@@ -41,7 +41,7 @@ class ShownCause(Open):
     cause: Annotated[str, Field(examples=["friction_stribeck"])]
     title: str
     visible: bool
-    not_on_joints: Annotated[list[int], about("there the parameters of the model can stand for it")]
+    not_on_joints: Annotated[list[int], about("there the parameters of the model absorb it")]
     smallest: list[SmallestEffect]
     experiment: Annotated[str, about("the motion that shows it")]
 

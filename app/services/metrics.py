@@ -94,7 +94,7 @@ class _Now(Collector):
         )
         yield GaugeMetricFamily(
             "veritorque_worker_alive",
-            "1 while a worker beside this service was heard lately, or others compute.",
+            "1 while a worker of this service has responded lately, or others compute.",
             value=float(self._worker_alive()),
         )
         yield GaugeMetricFamily(
@@ -104,7 +104,7 @@ class _Now(Collector):
         )
         yield GaugeMetricFamily(
             "veritorque_disk_reserve_bytes",
-            "Space below which nothing more is taken.",
+            "Space below which nothing more is accepted.",
             value=self._settings.disk_reserve_bytes,
         )
         yield InfoMetricFamily("veritorque_build", "What runs.", value={"version": VERSION})

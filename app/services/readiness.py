@@ -114,7 +114,7 @@ class Readiness:
             return _loading_problem()
         if not self._worker_alive():
             return _not_ready(
-                "the worker is not heard; another is started in its place",
+                "the worker does not respond; another is started in its place",
                 {},
                 "jobs may be sent and will wait; the service's own log says why it ended",
             )

@@ -6,7 +6,7 @@ from ...core.robot.builtin import builtin_description, builtin_robots
 from ...core.robot.description import robot_from_description
 from ...core.robot.model import RobotModel
 from ...core.robot.plausibility import plausibility_warnings
-from ...core.robot.urdf import robot_from_urdf
+from ...core.robot.urdf.read import robot_from_urdf
 from ...core.robot.writing import to_description
 from ..store.records import Document, RobotRecord
 

@@ -1,1 +1,1 @@
-"""Audit a robot's description: bodies that cannot be, and entries that logs contradict."""
+"""Audit a robot's description: impossible bodies, and entries that logs contradict."""

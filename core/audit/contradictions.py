@@ -6,7 +6,7 @@ projected out, in units of its deviation. The description is granted a slack. Th
 Math. Soc. 54, 1943 (test of restrictions); Gautier & Khalil 1990 (what is identifiable).
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 
@@ -16,7 +16,7 @@ from scipy.stats import chi2
 
 from ..arrays import EquationRows, LinkTable, Matrix, Vector
 from ..estimate.constraints import link_columns
-from ..identification.reference import body_spread, with_least_deviation
+from ..identification.reference import bodies_spread, with_least_deviation
 from ..identification.result import Identification
 from ..robot.inertia import from_mass_properties, mass_properties
 from .entries import SIZES, Bodies, Entry
@@ -24,8 +24,6 @@ from .thresholds import LOG
 
 ROUNDS = 4
 """Gauss-Newton steps of a fit: only products of mass and centre are not linear."""
-THINNEST = 1e-3
-"""Least second moment of a corrected body over its largest one: a rod of 1 to 30."""
 IMPOSSIBLE = 1e12
 """Cost of bodies without mass."""
 Chosen = frozenset[Entry]
@@ -92,12 +90,7 @@ def evidence_of(found: Identification) -> Evidence | None:
     grouping = found.base.grouping
     kept = null_space((root @ grouping[:, others]).T) if others else np.eye(len(root))
     rows, values = kept.T @ root @ grouping[:, columns], kept.T @ root @ measured
-    spread = np.hstack(
-        [
-            rows[:, 10 * link : 10 * link + 10] @ body_spread(body, LOG.slack)
-            for link, body in enumerate(table)
-        ]
-    )
+    spread = bodies_spread(rows, table, LOG.slack)
     lower = np.linalg.cholesky(np.eye(len(rows)) + spread @ spread.T)
     white = solve_triangular(lower, np.column_stack([rows, values]), lower=True)
     return Evidence(white[:, :-1], white[:, -1], Bodies(table))
@@ -113,12 +106,7 @@ def contradictions(evidence: Evidence) -> tuple[tuple[Contradiction, ...], Corre
     def cost(chosen: Chosen) -> float:
         return corrected(chosen).misfit + sum(map(evidence.price, chosen))
 
-    chosen: Chosen = frozenset()
-    while True:
-        best = min(_neighbours(evidence, chosen), key=cost, default=chosen)
-        if cost(best) >= cost(chosen) - 1e-6:
-            break
-        chosen = best
+    chosen = _cheapest(evidence, cost)
     found = []
     for entry in sorted(chosen):
         without = corrected(chosen - {entry}).misfit - corrected(chosen).misfit
@@ -131,6 +119,16 @@ def contradictions(evidence: Evidence) -> tuple[tuple[Contradiction, ...], Corre
         found.append(Contradiction(entry, without, min(1.0, tail * len(evidence.entries)), others))
     correction = corrected(chosen)
     return tuple(found), replace(correction, table=_consistent(correction))
+
+
+def _cheapest(evidence: Evidence, cost: Callable[[Chosen], float]) -> Chosen:
+    """Choose stepwise the entries whose correction costs least."""
+    chosen: Chosen = frozenset()
+    while True:
+        best = min(_neighbours(evidence, chosen), key=cost, default=chosen)
+        if cost(best) >= cost(chosen) - 1e-6:
+            return chosen
+        chosen = best
 
 
 def _neighbours(evidence: Evidence, chosen: Chosen) -> Iterable[Chosen]:
@@ -173,7 +171,7 @@ def _consistent(correction: Correction) -> LinkTable:
     for link in {entry.link - 1 for entry in correction.chosen}:
         mass, centre, inertia = mass_properties(table[link])
         moments, axes = np.linalg.eigh(0.5 * np.trace(inertia) * np.eye(3) - inertia)
-        least = THINNEST * max(float(moments[-1]), 0.0)
+        least = LOG.thinnest * max(float(moments[-1]), 0.0)
         if moments[0] < least:
             second = axes * np.maximum(moments, least) @ axes.T
             table[link] = from_mass_properties(mass, centre, np.trace(second) * np.eye(3) - second)

@@ -5,18 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Vector
+from ..arrays import LinkTable, Vector
 from ..robot.inertia import mass_properties, pseudo_inertia
 from ..robot.model import RobotModel
 from .thresholds import DESCRIPTION
 
 ROUNDING = 1e-9
 """An eigenvalue above minus this share of the largest one is rounding."""
-MARGIN, SHARE_OF_REACH = 0.1, 0.1
-"""What a body reaches beyond the axes it carries: m, plus a share of the robot's reach. Drives and covers of
-arms of 0.5 to 3 m reach 0.1 to 0.3 m beyond."""
-TIP = 0.5
-"""Share of the longest link that a link without a successor is long: its tool is in no table."""
 UNITS = {
     1e3: "grams instead of kilograms, or millimetres instead of metres",
     1e6: "kg mm2 instead of kg m2",
@@ -80,7 +75,7 @@ def description_remarks(robot: RobotModel, makers_mass: float | None = None) -> 
     """
     if robot.prior is None:
         return ()
-    bodies = _bodies(robot)
+    bodies = _bodies(robot, robot.prior)
     found = [remark for body in bodies for remark in _of_body(body)]
     found += [*_of_units(bodies), *_of_sides(bodies)]
     if makers_mass is not None:
@@ -88,20 +83,25 @@ def description_remarks(robot: RobotModel, makers_mass: float | None = None) -> 
     return tuple(found)
 
 
-def _bodies(robot: RobotModel) -> list[_Body]:
-    table = np.zeros((0, 10)) if robot.prior is None else robot.prior
+def _bodies(robot: RobotModel, table: LinkTable) -> list[_Body]:
     lengths = [float(np.linalg.norm(link.translation)) for link in robot.links if link.antecedent]
     reach, longest = sum(lengths), max(lengths, default=0.0)
     found = []
     for index, (link, body) in enumerate(zip(robot.links, table, strict=True)):
         ends = [other.translation for other in robot.links if other.antecedent == index + 1]
-        points = np.array([np.zeros(3), *ends])
-        middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
-        beyond = MARGIN + SHARE_OF_REACH * reach + (0.0 if ends else TIP * longest)
-        radius = float(np.linalg.norm(points - middle, axis=1).max()) + beyond if longest else float("inf")
+        tip = 0.0 if ends else DESCRIPTION.tip * longest
+        beyond = DESCRIPTION.beyond_metres + DESCRIPTION.beyond_share * reach + tip
+        middle, radius = _ball([np.zeros(3), *ends], beyond if longest else float("inf"))
         eigenvalues = np.linalg.eigvalsh(pseudo_inertia(body))
         found.append(_Body(index + 1, link.name, *mass_properties(body), eigenvalues, middle, radius))
     return found
+
+
+def _ball(axes: list[Vector], beyond: float) -> tuple[Vector, float]:
+    """Give the middle of some points, and the radius of the ball that reaches so far beyond them, m."""
+    points = np.array(axes)
+    middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
+    return middle, float(np.linalg.norm(points - middle, axis=1).max()) + beyond
 
 
 def _of_body(body: _Body) -> Iterator[Remark]:
@@ -128,8 +128,8 @@ def _of_body(body: _Body) -> Iterator[Remark]:
             "triangle_inequality",
             body.number,
             "inertia",
-            f"{body.label}: the principal moments {_listed(principal)} kg m2 belong to no body, "
-            "as two together are less than the third",
+            f"{body.label}: the principal moments {_listed(principal)} kg m2 violate the triangle "
+            "inequality: two together are less than the third",
             "take the inertia about the mass centre, and check its order and the signs of its products",
         )
     elif body.eigenvalues[0] < -ROUNDING * body.eigenvalues[-1]:
@@ -137,7 +137,7 @@ def _of_body(body: _Body) -> Iterator[Remark]:
             "inconsistent",
             body.number,
             "inertia",
-            f"{body.label}: its pseudo-inertia has an eigenvalue of {body.eigenvalues[0]:.3g}, as no body",
+            f"{body.label}: its pseudo-inertia has the negative eigenvalue {body.eigenvalues[0]:.3g}",
             "take the inertia about the mass centre",
         )
     yield from _of_size(body)
@@ -147,7 +147,7 @@ def _of_size(body: _Body) -> Iterator[Remark]:
     if not np.isfinite(body.radius):
         return
     away = float(np.linalg.norm(body.centre - body.middle))
-    if away > DESCRIPTION.outside * body.radius:
+    if away > body.radius:
         yield Remark(
             "centre_outside",
             body.number,
@@ -156,7 +156,7 @@ def _of_size(body: _Body) -> Iterator[Remark]:
             f"{body.radius:.3g} m",
             "give the mass centre in m in the link's frame",
         )
-    if body.gyration > DESCRIPTION.wide * body.radius:
+    if body.gyration > body.radius:
         yield Remark(
             "inertia_too_large",
             body.number,
@@ -184,13 +184,16 @@ def _of_size(body: _Body) -> Iterator[Remark]:
         )
 
 
+def _typical_ratio(bodies: list[_Body]) -> float:
+    """Give how many times larger inertias over masses typically are than of links; 0 where none tells."""
+    sized = (body for body in bodies if np.isfinite(body.radius) and body.gyration > 0.0)
+    ratios = [body.gyration / (DESCRIPTION.usual * body.radius) for body in sized]
+    return float(np.median(ratios)) ** 2 if ratios else 0.0
+
+
 def _of_units(bodies: list[_Body]) -> list[Remark]:
     """Find a unit that all inertias share: their radii of gyration are off by the root of one factor."""
-    ratios = [body.gyration / (0.3 * body.radius) for body in bodies if np.isfinite(body.radius)]
-    ratios = [ratio for ratio in ratios if ratio > 0.0]
-    if not ratios:
-        return []
-    typical = float(np.median(ratios)) ** 2
+    typical = _typical_ratio(bodies)
     for factor, words in UNITS.items():
         for value, what in ((factor, "large"), (1.0 / factor, "small")):
             if 1.0 / DESCRIPTION.unit_spread < typical / value < DESCRIPTION.unit_spread:

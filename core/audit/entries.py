@@ -9,15 +9,12 @@ import numpy as np
 from ..arrays import LinkParameters, LinkTable, Matrix, Vector
 from ..robot.frames import cross_matrix
 from ..robot.inertia import from_mass_properties, mass_properties
+from .thresholds import LOG
 
 SIZES = {"mass": 1, "centre": 3, "inertia": 6}
 """Numbers per entry, in the order in which a body's ten numbers are arranged here."""
 _AT = {"mass": slice(0, 1), "centre": slice(1, 4), "inertia": slice(4, 10)}
 _PAIRS = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
-FREE = 10.0
-"""Share of itself by which a mass or inertia may be off beforehand: what the log leaves open stays."""
-FREE_METRES = 0.3
-"""The same of a mass centre, m."""
 
 
 @dataclass(frozen=True, order=True)
@@ -48,7 +45,8 @@ class Bodies:
         inertia = np.abs(self.properties[:, [4, 7, 9]]).max(axis=1, initial=0.0)[:, None]
         least = 1e-4 * masses  # a body of a centimetre
         inertias = np.repeat(np.maximum(inertia, least), 6, axis=1)
-        return np.hstack([FREE * masses, np.full((len(masses), 3), FREE_METRES), FREE * inertias])
+        centres = np.full((len(masses), 3), LOG.unknown_metres)
+        return np.hstack([LOG.unknown_share * masses, centres, LOG.unknown_share * inertias])
 
     def numbers(self, entries: Sequence[Entry]) -> list[tuple[int, int]]:
         """List link (from 0) and place of every number of some entries."""

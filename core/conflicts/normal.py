@@ -14,6 +14,7 @@ from .thresholds import TRIAL
 _RIDGE = 1e-11
 """Added to the diagonal of scaled products, so that they have a Cholesky factor."""
 _REWEIGHTINGS = 2
+"""Rounds in which the noise of the joints is estimated anew."""
 
 
 @dataclass(frozen=True, eq=False)

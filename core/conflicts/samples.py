@@ -1,12 +1,12 @@
 """Condense conditioned motions to some hundred instants that a set-up can be tried on in milliseconds."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..arrays import BlockKey, InstantSeries, JointMask, JointSeries, SampleMask
-from ..log.assignment import Assignment
+from ..log.columns.assignment import Assignment
 from ..signals.condition import Motion
 from ..signals.parallel import Tile
 from ..signals.state import MotionState
@@ -51,15 +51,18 @@ class Samples:
         return MotionState(self.position, self.velocity, self.acceleration, np.zeros(len(self.position)))
 
 
+def _tiles(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Iterator[tuple[Tile, bool]]:
+    """Give the tiles that are not held out, and whether each judges."""
+    for number, motion in enumerate(motions):
+        for tile in motion.tiles():
+            if (number, tile.block) not in held_out:
+                yield tile, _is_judged(tile.block, number, held_out)
+
+
 def sampled(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Samples:
-    """Take every n-th kept instant of the blocks that are not held out."""
+    """Take every n-th decimated sample of the blocks that are not held out."""
     stride = max(1, -(-sum(motion.kept for motion in motions) // TRIAL.rows))
-    tiles = [
-        (tile, _is_judged(tile.block, number, held_out))
-        for number, motion in enumerate(motions)
-        for tile in motion.tiles()
-        if (number, tile.block) not in held_out
-    ]
+    tiles = list(_tiles(motions, held_out))
 
     def gathered(series: Callable[[Tile], InstantSeries]) -> InstantSeries:
         return np.concatenate([series(tile)[::stride] for tile, _ in tiles])

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 from ..arrays import Vector3
-from ..log.assignment import Assignment, Channels
+from ..log.columns.assignment import Assignment, Channels
 from ..robot.model import Link, RobotModel
 
 

@@ -130,8 +130,8 @@ class Trials:
         ]
         present, columns = self.equations(setup), self._plan(setup).columns_of
         size = len(present.regressor.base.kept)
-        products = np.array([[crossed(one, other, columns, size) for other in rows] for one in rows])
-        moments = np.array([towards(one, present.fitted, columns, size) for one in rows])
+        products = np.array([[crossed(own, other, columns, size) for other in rows] for own in rows])
+        moments = np.array([towards(own, present.fitted, columns, size) for own in rows])
 
         def bound(gravity: Vector3) -> float:
             ways = np.append(1.0, gravity)

@@ -5,16 +5,12 @@ over the coordinate that explains it. A generic learner predicts how much is lef
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
-from ..arrays import BlockKey, JointSeries
-from ..dynamics.model import DynamicModel
-from ..identification.reference import Reference
-from ..log.model import JointLog
-from ..regressor.columns import ColumnPlan
+from ..arrays import JointSeries
 from .bandwidth import Fitted, limit_bandwidth
 from .causes.external_contact import ExternalContact
 from .causes.registry import AGAINST_REFERENCE, CAUSES, SAMPLE_CHECKS
@@ -28,6 +24,7 @@ from .checks.holdout_outliers import Explained, has_holdout_outliers, with_other
 from .checks.kurtosis import bounded_residual
 from .checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
 from .dataset.dataset import Dataset, build_dataset, later_torque, refuse_too_little
+from .problem import DiagnosisProblem
 from .residual.atlas import atlas
 from .residual.learner import Predictable, predictable_share
 from .result import Diagnosis, Finding, NotIdentifiable, UnnamedPattern, Verdict
@@ -43,25 +40,6 @@ from .search.stepwise import confirm, continue_search, search_stepwise
 from .thresholds.checks import VERDICT
 
 Progress = Callable[[str, float], None]
-
-
-@dataclass(frozen=True, eq=False)
-class DiagnosisProblem:
-    """State the question: what a model lacks, or what has changed since a reference."""
-
-    plan: ColumnPlan
-    """The model and its base columns."""
-    logs: tuple[JointLog, ...]
-    held_out: frozenset[BlockKey]
-    blocks: int
-    """Blocks of every log that no fit may see, and how many blocks a log has."""
-    reference: Reference | None = None
-    """What the logs are compared with; None to identify the model from the logs first."""
-
-    @property
-    def model(self) -> DynamicModel:
-        """Give the model."""
-        return self.plan.model
 
 
 def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Diagnosis:
@@ -222,7 +200,7 @@ def _not_identifiable(found: SearchState) -> tuple[NotIdentifiable, ...]:
         NotIdentifiable(
             name,
             tuple(sorted(set(joints))),
-            "in this motion the parameters of the standard model can stand for it",
+            "in this motion the parameters of the standard model absorb it",
             by_id[name].experiment,
         )
         for name, joints in sorted(open_sites.items())

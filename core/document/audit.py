@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 from scipy.stats import norm
 
-from ..arrays import LinkTable
+from ..arrays import LinkTable, Matrix, Vector
 from ..audit.contradictions import Contradiction, Correction, described_mass
 from ..audit.description import Remark
 from ..audit.entries import Entry
 from ..audit.thresholds import LOG
-from ..identification.reference import body_spread
+from ..identification.reference import bodies_spread
 from ..identification.result import Identification
 from ..robot.inertia import mass_properties
 from ..robot.model import RobotModel
@@ -80,11 +80,11 @@ def measured_part(
     }
     if judged is not None and robot.prior is not None:
         contradicted, correction = judged
-        corrected = replace(robot, prior=correction.table) if contradicted else None
+        corrected = replace(robot, prior=correction.table)
         part["contradicted"] = [
-            _contradiction(one, robot, robot.prior, correction.table) for one in contradicted
+            _contradiction(found_entry, robot, robot.prior, correction.table) for found_entry in contradicted
         ]
-        part["corrected_robot"] = None if corrected is None else to_description(corrected)
+        part["corrected_robot"] = to_description(corrected) if contradicted else None
     return {key: plain(value) for key, value in part.items()}
 
 
@@ -145,36 +145,35 @@ def _combinations(found: Identification, prior: LinkTable) -> list[dict[str, obj
 
     Combinations with rotor inertia or friction are no matter of the description.
     """
-    base, measured = found.base, found.estimate.unconstrained
-    deviation = found.precision.standard_deviation
-    bodies = prior.size
-    table = base.grouping[:, :bodies]
-    of_bodies = [
-        row for row in range(len(base.kept)) if table[row].any() and not base.grouping[row, bodies:].any()
+    grouping, bodies = found.base.grouping, prior.size
+    of_bodies = np.flatnonzero(grouping[:, :bodies].any(axis=1) & ~grouping[:, bodies:].any(axis=1))
+    table = grouping[:, :bodies]
+    described, slack = table @ prior.ravel(), _slack(table, prior)
+    return [
+        {**grouping_row(found.base, row), **_compared(found, row, described[row], slack[row], len(of_bodies))}
+        for row in map(int, of_bodies)
     ]
-    described = table @ prior.ravel()
-    spread = np.hstack(
-        [
-            table[:, 10 * link : 10 * link + 10] @ body_spread(body, LOG.slack)
-            for link, body in enumerate(prior)
-        ]
-    )
-    slack = np.linalg.norm(spread, axis=1)
-    rows = []
-    for row in of_bodies:
-        whole = float(np.hypot(deviation[row], slack[row]))
-        known = bool(np.isfinite(whole)) and whole > 0.0
-        size = float(measured[row] - described[row]) / whole if known else None
-        tail = 1.0 if size is None else min(1.0, 2.0 * float(norm.sf(abs(size))) * len(of_bodies))
-        rows.append(
-            {
-                **grouping_row(base, row),
-                "described": described[row],
-                "measured": measured[row] if known else None,
-                "standard_deviation": deviation[row] if known else None,
-                "slack": slack[row],
-                "deviations": size,
-                "contradicted": tail < LOG.p_value,
-            }
-        )
-    return rows
+
+
+def _slack(table: Matrix, prior: LinkTable) -> Vector:
+    """Give by how much the described value of every combination may be off."""
+    return np.asarray(np.linalg.norm(bodies_spread(table, prior, LOG.slack), axis=1))
+
+
+def _compared(
+    found: Identification, row: int, described: float, slack: float, count: int
+) -> dict[str, object]:
+    """Compare what was measured of a combination, one of so many, with what was described."""
+    measured, deviation = found.estimate.unconstrained[row], found.precision.standard_deviation[row]
+    whole = float(np.hypot(deviation, slack))
+    known = bool(np.isfinite(whole)) and whole > 0.0
+    size = float(measured - described) / whole if known else None
+    tail = 1.0 if size is None else min(1.0, 2.0 * float(norm.sf(abs(size))) * count)
+    return {
+        "described": described,
+        "measured": measured if known else None,
+        "standard_deviation": deviation if known else None,
+        "slack": slack,
+        "deviations": size,
+        "contradicted": tail < LOG.p_value,
+    }

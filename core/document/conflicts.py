@@ -8,7 +8,7 @@ from ..conflicts.check import Conflicts
 from ..conflicts.conflict import Hypothesis
 from ..conflicts.path import FoundConflict
 from ..conflicts.setup import Setup
-from ..log.assignment import assigned, mapping_of
+from ..log.columns.assignment import assigned, mapping_of
 from ..log.model import JointLog
 from ..robot.model import RobotModel
 from ..robot.writing import to_description
@@ -97,7 +97,7 @@ def _correction(conflicts: Conflicts, robot: RobotModel, logs: tuple[JointLog, .
         mapping_of(log) | _clock(factor, log)
         for log, factor in zip(read, conflicts.stamp_factors, strict=True)
     ]
-    before = [mapping_of(log) for log in logs]
+    before = list(map(mapping_of, logs))
     described = {} if setup is None else _described(setup, robot)
     return {"mapping": mappings[0] if mappings != before else {}, "robot": described} | (
         {"mappings": mappings} if len(logs) > 1 and mappings != before else {}

@@ -16,8 +16,8 @@ from ..simulation.multistep import Comparison, MultiStep
 from .extended import answer_fields, extended_rows
 from .finding import finding_row, not_identifiable_row
 from .identification import held_out_spans, identification_document, score_rows
-from .identified import BaseValue, IdentifiedRobot
-from .model_file import model_document
+from .model.identified import BaseValue, IdentifiedRobot
+from .model.model_file import model_document
 from .numbers import plain
 from .payload import payload_row
 from .remainder import dependence_rows, spectrum_rows, unexplained
@@ -127,7 +127,7 @@ def _extension(before: Identification, after: Identification) -> dict[str, objec
 
 
 def _identified_robot(found: Identification) -> IdentifiedRobot:
-    """Give what was identified as files want it."""
+    """Give what was identified as files need it."""
     base = found.base
     rows = range(len(base.kept))
     return IdentifiedRobot(

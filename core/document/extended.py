@@ -6,8 +6,8 @@ The answer is the extended model where a diagnosis extended the plain one, else 
 from ..extension.fold import folded, parts_of
 from ..extension.result import Extension
 from ..identification.result import Identification
-from .answer import EXTENDED, PLAIN
 from .identification import base_parameter_rows, model_fields
+from .model.answer import EXTENDED, PLAIN
 
 NOTHING_ADDED = "The plain model, as the robot's description states it: the diagnosis added nothing"
 

@@ -20,9 +20,9 @@ from ..signals.condition import Motion
 from ..validation.quality import quality
 from ..validation.scores import JointScore
 from .bodies import body_rows
+from .model.reference import write_factor
+from .model.terms import named_terms
 from .numbers import plain
-from .reference import write_factor
-from .terms import named_terms
 
 SCHEMA_VERSION = "1.0"
 

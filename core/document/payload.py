@@ -40,7 +40,7 @@ def framed_payload(
     if not np.isfinite(distance) or abs(body[9]) <= 0.0:
         return None
     removed = bool(body[9] < 0.0)
-    mass, centre, inertia = mass_properties(-body if removed else body)
+    mass, centre, inertia = mass_properties(np.copysign(1.0, body[9]) * body)
     trace = np.array([1.0, 0, 0, 1.0, 0, 1.0, 0, 0, 0, 0])
     deviation = float(np.sqrt(max(trace @ covariance @ trace, 0.0)))
     known = deviation < INERTIA_KNOWN * float(np.trace(inertia))

@@ -7,7 +7,7 @@ import numpy as np
 from ..conflicts.check import Conflicts
 from ..diagnosis.causes.protocol import Site
 from ..diagnosis.causes.registry import BY_ID
-from ..diagnosis.separability import Pair, Separability, Shown, Smallest
+from ..diagnosis.checks.separability import Pair, Separability, Shown, Smallest
 from ..identification.result import Identification
 from ..precision.inference import relative_deviation_percent
 from ..validation.quality import quality
@@ -90,19 +90,21 @@ def _identifiable(found: Identification) -> list[dict[str, object]]:
 def _causes(shown: tuple[Shown, ...]) -> list[dict[str, object]]:
     """Say per cause on which joints these logs can show it, and from which size on."""
     sites: dict[str, list[Shown]] = {}
-    for one in shown:
-        sites.setdefault(one.cause.id, []).append(one)
-    return [
-        {
-            "cause": name,
-            "title": own[0].cause.title,
-            "visible": any(one.visible for one in own),
-            "not_on_joints": sorted({joint for one in own if not one.visible for joint in one.site}),
-            "smallest": [_size(one.smallest, one.site) for one in own if one.smallest is not None],
-            "experiment": own[0].cause.experiment,
-        }
-        for name, own in sites.items()
-    ]
+    for site in shown:
+        sites.setdefault(site.cause.id, []).append(site)
+    return [_of_cause(own) for own in sites.values()]
+
+
+def _of_cause(sites: list[Shown]) -> dict[str, object]:
+    cause = sites[0].cause
+    return {
+        "cause": cause.id,
+        "title": cause.title,
+        "visible": any(site.visible for site in sites),
+        "not_on_joints": sorted({joint for site in sites if not site.visible for joint in site.site}),
+        "smallest": [_size(site.smallest, site.site) for site in sites if site.smallest is not None],
+        "experiment": cause.experiment,
+    }
 
 
 def _size(smallest: Smallest, site: Site) -> dict[str, object]:
@@ -128,7 +130,7 @@ def _matrix(pairs: tuple[Pair, ...]) -> dict[str, dict[str, str]]:
 
 def _not_separable(separable: Separability) -> list[dict[str, object]]:
     """List the pairs that are not told apart, of causes that these logs can show at all."""
-    visible = {one.cause.id for one in separable.shown if one.visible}
+    visible = {site.cause.id for site in separable.shown if site.visible}
     return [
         _pair(pair) for pair in separable.pairs if pair.answer != "yes" and visible.issuperset(pair.causes)
     ]

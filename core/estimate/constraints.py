@@ -93,7 +93,7 @@ class Bounds:
         masses_fit = self._allows_masses() and 0.0 <= self.margin <= LARGEST_MARGIN
         if not masses_fit or any(region.is_empty for region in (*self.centres, *self.sizes)):
             raise OptionError(
-                "the bounds leave no robot",
+                "the bounds contradict each other",
                 evidence={
                     "mass_kg": list(map(list, self.mass)),
                     "total_mass_kg": list(self.total_mass or ()),

@@ -120,7 +120,7 @@ def _solve_with_large_links(
     solution = _solve_with_light_links(programme, solver, least)
     costly = costly_bounds(programme, solution, solver, least)
     declared = {size.link for size in programme.bounds.sizes}
-    larger = tuple(one.bound.link for one in costly if one.bound.link not in declared)
+    larger = tuple(each.bound.link for each in costly if each.bound.link not in declared)
     if not larger:
         return solution, costly
     without = replace(programme, bounds=replace(programme.bounds, exempt=larger))
@@ -138,29 +138,39 @@ def costly_bounds(
     bounds, now = programme.bounds, programme.cost(solution)
     if now < BOUND_COST * least:
         return ()
-    links = link_bounds(programme.base.model, bounds, programme.prior)
-    held = [link for link in links if any(link.exhausted(solution.standard))]
+    held = _exhausted(programme, solution)
+    if not held:
+        return ()
 
-    def cost_without(links: Sequence[LinkBound]) -> float:
-        fewer = replace(bounds, exempt=tuple(link.link for link in links), margin=solution.margin)
-        try:
-            answer = solve(replace(programme, bounds=fewer), solver)
-        except SolverError:
-            return np.inf
-        return max(programme.cost(answer), np.finfo(float).tiny)
-
-    floor = cost_without(held) if held else np.inf
+    freed = replace(programme, bounds=replace(bounds, margin=solution.margin))
+    floor = _cost_without(held, freed, solver)
     found: list[CostlyBound] = []
-    while now >= BOUND_COST * floor and len(found) < len(held):
-        removed = [costly.bound for costly in found]
-        left = [link for link in held if link not in removed]
-        costs = {link.link: cost_without([*removed, link]) for link in left}
-        costliest = min(left, key=lambda link: costs[link.link])
-        if not np.isfinite(costs[costliest.link]):
+    removed: list[LinkBound] = []
+    while now >= BOUND_COST * floor and held:
+        costs = [_cost_without([*removed, link], freed, solver) for link in held]
+        least_cost = min(costs)
+        if not np.isfinite(least_cost):
             break
-        found.append(CostlyBound(costliest, now / costs[costliest.link]))
-        now = costs[costliest.link]
+        removed.append(held.pop(costs.index(least_cost)))
+        found.append(CostlyBound(removed[-1], now / least_cost))
+        now = least_cost
     return tuple(found)
+
+
+def _exhausted(programme: Programme, solution: Solution) -> list[LinkBound]:
+    """List the links whose bodies are at one of their bounds."""
+    links = link_bounds(programme.base.model, programme.bounds, programme.prior)
+    return [link for link in links if any(link.exhausted(solution.standard))]
+
+
+def _cost_without(links: Sequence[LinkBound], programme: Programme, solver: str) -> float:
+    """Give the least cost where some links are not bounded; infinity where no accurate optimum is found."""
+    fewer = replace(programme.bounds, exempt=tuple(link.link for link in links))
+    try:
+        answer = solve(replace(programme, bounds=fewer), solver)
+    except SolverError:
+        return np.inf
+    return max(programme.cost(answer), np.finfo(float).tiny)
 
 
 def _solve_with_light_links(programme: Programme, solver: str, least: float) -> Solution:

@@ -40,7 +40,7 @@ class EstimateOptions:
         return ESTIMATORS[self.estimator]
 
     def __post_init__(self) -> None:
-        """Refuse unknown names and weights that make no sense."""
+        """Refuse unknown names and weights that are not valid."""
         if self.estimator not in ESTIMATORS or self.solver not in SOLVERS:
             raise OptionError(
                 "the estimator or solver is not known",
@@ -61,7 +61,7 @@ class EstimateOptions:
             )
         if not 0.0 < self.pull <= 1e6 or not 0.0 <= self.entropy <= 1e6:
             raise OptionError(
-                "the weights of the prior make no sense",
+                "the weights of the prior are not valid",
                 evidence={"pull": self.pull, "entropy": self.entropy},
                 remedy="give a pull above 0 and up to 1e6, and an entropy from 0 to 1e6",
             )

@@ -17,7 +17,7 @@ from ..arrays import Parameters, Vector
 from ..dynamics.model import DynamicModel
 from ..robot.extent import Extent, distance_square, link_extents
 from ..robot.inertia import PSEUDO_INERTIA_BASIS, pseudo_inertia
-from ..robot.model import Ball
+from ..robot.model import Ball, RobotModel
 from .constraints import Bounds, Prior, link_columns
 
 DENSEST = 20_000.0
@@ -82,21 +82,25 @@ def link_bounds(model: DynamicModel, bounds: Bounds, prior: Prior) -> tuple[Link
     Where an ordinary link would be denser than metal, in proportion to torques and lengths, the torque is in
     another unit or its lengths are not the robot's: then density is not bounded.
     """
+    extents = _extents(model.robot, bounds)
+    found = []
+    for number, columns in enumerate(link_columns(model), start=1):
+        exempt = number in bounds.exempt
+        extent = None if exempt else extents[number - 1]
+        density = bounds.plausible and not exempt and _has_known_units(prior, columns)
+        found.append(LinkBound(number, columns, extent, density_bounded=density))
+    return tuple(found)
+
+
+def _extents(robot: RobotModel, bounds: Bounds) -> list[Extent | None]:
+    """Give each link's extent: declared, or assumed where no place of its centre is declared."""
     placed = {region.link for region in bounds.centres}
     declared = {size.link: Extent(Ball(size.centre, size.radius), "declared") for size in bounds.sizes}
-    known = link_extents(model.robot) if bounds.plausible else (None,) * len(model.robot.links)
-    assumed = [None if link in placed else extent for link, extent in enumerate(known, start=1)]
-    return tuple(
-        LinkBound(
-            number,
-            columns,
-            None if number in bounds.exempt else declared.get(number) or assumed[number - 1],
-            density_bounded=bounds.plausible
-            and number not in bounds.exempt
-            and _has_known_units(prior, columns),
-        )
-        for number, columns in enumerate(link_columns(model), start=1)
-    )
+    known = link_extents(robot) if bounds.plausible else (None,) * len(robot.links)
+    return [
+        declared.get(link) or (None if link in placed else extent)
+        for link, extent in enumerate(known, start=1)
+    ]
 
 
 def _has_known_units(prior: Prior, columns: tuple[int, ...]) -> bool:

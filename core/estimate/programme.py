@@ -77,7 +77,7 @@ _MEANINGS = {
     ),
     "unbounded": ("the optimum lies at infinity", "use a pull towards a prior greater than zero"),
     "inaccurate": ("the solver stopped before it reached its accuracy", _REMEDY),
-    "stopped": ("the solver gave up", _REMEDY),
+    "stopped": ("the solver stopped without an optimum", _REMEDY),
 }
 
 

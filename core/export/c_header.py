@@ -1,6 +1,6 @@
 """Write an identified robot as a C header: its parameters as constants, and the torque they stand for.
 
-Controllers want the model without a library. The header is C99, needs math.h alone, and says units, order and
+Controllers need the model without a library. The header is C99, needs math.h alone, and says units, order and
 conventions beside every number.
 """
 
@@ -11,8 +11,8 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from ..document.caveats import caveats
-from ..document.identified import IdentifiedRobot
+from ..document.model.caveats import caveats
+from ..document.model.identified import IdentifiedRobot
 from ..dynamics.terms.coulomb import Coulomb
 from ..dynamics.terms.coupling import GearCoupling
 from ..robot.model import Link

@@ -6,8 +6,8 @@ inertial parameters refer to.
 
 from collections.abc import Mapping
 
-from ..document.caveats import REPRESENTATIVE, SOURCE, smoothing
-from ..document.identified import IdentifiedRobot
+from ..document.model.caveats import REPRESENTATIVE, SOURCE, smoothing
+from ..document.model.identified import IdentifiedRobot
 from ..robot.model import INERTIAL_SYMBOLS, Link
 
 FRAMES = (

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ..document.identified import IdentifiedRobot
+from ..document.model.identified import IdentifiedRobot
 from ..dynamics.model import standard_model
 from ..errors import RobotError
 from ..robot.description import robot_from_description

@@ -35,50 +35,50 @@ def _standard_csv(document: Document) -> bytes:
 
 
 def _yaml(document: Document) -> bytes:
-    from ..document.reading import identified_robot
+    from ..document.model.reading import identified_robot
     from .yaml import write_yaml
 
     return write_yaml(identified_robot(document)).encode()
 
 
 def _matlab(document: Document) -> bytes:
-    from ..document.reading import identified_robot
+    from ..document.model.reading import identified_robot
     from .matlab import write_matlab
 
     return write_matlab(identified_robot(document))
 
 
 def _c_header(document: Document) -> bytes:
-    from ..document.reading import identified_robot
+    from ..document.model.reading import identified_robot
     from .c_header import write_c_header
 
     return write_c_header(identified_robot(document)).encode()
 
 
 def _urdf(document: Document) -> bytes:
-    from ..document.reading import identified_robot
+    from ..document.model.reading import identified_robot
     from .urdf import write_urdf
 
     return write_urdf(identified_robot(document)).encode()
 
 
 def _mjcf(document: Document) -> bytes:
-    from ..document.reading import identified_robot
+    from ..document.model.reading import identified_robot
     from .mjcf import write_mjcf
 
     return write_mjcf(identified_robot(document)).encode()
 
 
 def _sdf(document: Document) -> bytes:
-    from ..document.reading import identified_robot
+    from ..document.model.reading import identified_robot
     from .sdf import write_sdf
 
     return write_sdf(identified_robot(document)).encode()
 
 
 def _model(document: Document) -> bytes:
-    from ..document.model_file import write_model
-    from ..document.reading import identified_model
+    from ..document.model.model_file import write_model
+    from ..document.model.reading import identified_model
 
     return write_model(identified_model(document)).encode()
 

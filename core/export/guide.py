@@ -6,8 +6,8 @@
 import sys
 
 from ..log.channels import CHANNELS, Channel, Unit
+from ..log.columns.profiles import PROFILES, Pattern
 from ..log.formats.content import FORMS
-from ..log.profiles import PROFILES, Pattern
 from .formats import FORMATS
 
 OPENING = """\

@@ -8,8 +8,8 @@ import io
 
 import numpy as np
 
-from ..document.caveats import by_identifiability
-from ..document.identified import IdentifiedRobot
+from ..document.model.caveats import by_identifiability
+from ..document.model.identified import IdentifiedRobot
 from .content import Row, content
 
 VARIABLE = "identified"

@@ -12,8 +12,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation as Turn
 
 from ..arrays import LinkParameters, Rotation, Vector
-from ..document.caveats import caveats, smoothing
-from ..document.identified import IdentifiedRobot
+from ..document.model.caveats import caveats, smoothing
+from ..document.model.identified import IdentifiedRobot
 from ..robot.inertia import mass_properties
 from .elements import child, comment, document
 from .movers import Mover, free_name, movers

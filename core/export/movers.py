@@ -1,4 +1,4 @@
-"""Place every link as URDF, MJCF and SDF want it: a joint whose coordinate is the log's, about an axis.
+"""Place every link as URDF, MJCF and SDF require it: a joint whose coordinate is the log's, about an axis.
 
 Our links move about z by a ratio times a coordinate plus an offset. Those formats know the ratio only for a
 joint that mimics another: here the offset of a joint with a coordinate of its own goes into the placement,

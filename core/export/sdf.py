@@ -14,8 +14,8 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from ..arrays import LinkParameters, Rotation, Vector3
-from ..document.caveats import caveats, rotors
-from ..document.identified import IdentifiedRobot
+from ..document.model.caveats import caveats, rotors
+from ..document.model.identified import IdentifiedRobot
 from ..robot.frames import rpy_of_rotation
 from ..robot.inertia import mass_properties
 from .elements import child, comment, document, text_of

@@ -5,7 +5,7 @@ import io
 from collections.abc import Mapping
 from typing import Any
 
-from ..document.answer import model_name, plain_document
+from ..document.model.answer import model_name, plain_document
 
 Document = Mapping[str, Any]
 

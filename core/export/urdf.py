@@ -10,15 +10,15 @@ from xml.etree import ElementTree as ET
 import numpy as np
 
 from ..arrays import LinkParameters, Rotation, Vector3
-from ..document.caveats import caveats, of_motors, per_joint, rotors, smoothing, without_place
-from ..document.identified import IdentifiedRobot
+from ..document.model.caveats import caveats, of_motors, per_joint, rotors, smoothing, without_place
+from ..document.model.identified import IdentifiedRobot
 from ..robot.frames import rotation_to, rpy_of_rotation
 from ..robot.inertia import mass_properties
 from .elements import child, comment, document
 from .movers import Mover, free_name, movers
 
 UNLIMITED = 1e9
-"""URDF wants effort and velocity limits: N m and rad/s where none is known."""
+"""URDF requires effort and velocity limits: N m and rad/s where none is known."""
 LONGEST_STROKE = 1e3
 """Limits of a prismatic joint, m, which URDF requires even if none are known."""
 

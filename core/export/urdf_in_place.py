@@ -10,15 +10,15 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 
-from ..document.caveats import caveats
-from ..document.identified import IdentifiedRobot
+from ..document.model.caveats import caveats
+from ..document.model.identified import IdentifiedRobot
 from ..errors import RobotError
 from ..robot.differences import differences
 from ..robot.frames import rotation_to
 from ..robot.inertia import transform_body
 from ..robot.model import RobotModel
-from ..robot.urdf import robot_from_urdf
-from ..robot.urdf_document import UrdfDocument, read_urdf_document
+from ..robot.urdf.document import UrdfDocument, read_urdf_document
+from ..robot.urdf.read import robot_from_urdf
 from .elements import comment, text_of
 from .urdf import left_out, write_inertial
 from .urdf_spans import Element, Span, find_elements

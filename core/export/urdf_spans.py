@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
-from ..robot.urdf_elements import without_blank_start
+from ..robot.urdf.elements import without_blank_start
 
 Span = tuple[int, int]
 """First byte and the one after the last."""

@@ -9,8 +9,8 @@ import json
 import textwrap
 from collections.abc import Mapping
 
-from ..document.caveats import caveats
-from ..document.identified import IdentifiedRobot
+from ..document.model.caveats import caveats
+from ..document.model.identified import IdentifiedRobot
 from .content import content
 
 WIDTH = 110

@@ -8,14 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import BaseParameters, Intervals, Matrix, Vector
+from ..diagnosis.thresholds.checks import MOTION
 from ..numerics.block_bootstrap import FEWEST_BLOCKS, interval_95, resampled_sums
 from ..regressor.observe import Observation
 from ..simulation.multistep import Comparison
 
 DRAWS = 1000
 SEED = 0
-CLEARLY_WORSE_PERCENT = 10.0
-"""Upper end of the 95 % interval of a joint's growing position error from which motion is clearly worse."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +94,7 @@ def worsens_motion(comparison: Comparison) -> bool:
     intervals = motion_intervals(comparison)
     if intervals is None:
         return False
-    clearly = bool(np.any(intervals[:, 1] < -CLEARLY_WORSE_PERCENT))
+    clearly = bool(np.any(intervals[:, 1] < -MOTION.clearly_worse_percent))
     return clearly and float(np.mean(comparison.total_gain_percent)) < 0.0
 
 

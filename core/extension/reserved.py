@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from ..diagnosis.reservations import with_reservations
+from ..diagnosis.checks.reservations import with_reservations
 from ..identification.doubts import has_impossible_joint
 from .result import Extension
 

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar
 
-from ..diagnosis.reservations import as_doubtful
+from ..diagnosis.checks.reservations import as_doubtful
 from ..diagnosis.result import Diagnosis, Evidence, Finding
 from ..errors import SolverError
 from .cure import enters

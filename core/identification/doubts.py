@@ -4,10 +4,13 @@ An optimum exists even for wrong signs, units or gravity and for poor excitation
 the consistency constraint and in the residual.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ..arrays import JointVector, Mask
 from ..estimate.plausibility import DENSEST
+from ..log.model import Defect
 from ..robot.extent import Extent
 from ..validation.quality import quality
 from .result import Identification
@@ -45,7 +48,9 @@ def has_impossible_joint(found: Identification) -> bool:
     """
     costly = _joint_cost(found) > HIGH_COST
     judged = found.validation or found.fit
-    return any(costly[one.joint - 1] and quality(one.nrmse_of_rms_percent) == "failed" for one in judged)
+    return any(
+        costly[score.joint - 1] and quality(score.nrmse_of_rms_percent) == "failed" for score in judged
+    )
 
 
 def _logs(found: Identification) -> list[str]:
@@ -56,10 +61,15 @@ def _logs(found: Identification) -> list[str]:
             if kind == ONE_DIRECTION and len(found.logs) > 1:
                 continue  # the way back may be in another log
             alike = [defect for defect in log.defects if defect.kind == kind]
-            others = ", ".join(str(defect.joint) for defect in alike[1:])
-            more = f" (so it is on joints {others})" if others else ""
-            sentences += [f"Log {log.name}: {defect.statement.rstrip('.')}{more}" for defect in alike[:1]]
+            if alike:
+                sentences.append(f"Log {log.name}: {_told_once(alike)}")
     return sentences
+
+
+def _told_once(alike: Sequence[Defect]) -> str:
+    """State the first of some defects of one kind in full, and the joints of the others."""
+    others = ", ".join(str(defect.joint) for defect in alike[1:])
+    return alike[0].statement.rstrip(".") + (f" (likewise on joints {others})" if others else "")
 
 
 def _cost(found: Identification) -> list[str]:

@@ -18,7 +18,7 @@ from ..signals.recipe import FilterOptions
 from ..validation.holdout import HoldOut
 
 DIAGNOSIS_HOLD_OUT = HoldOut(fraction=0.25, blocks=40)
-"""A diagnosis wants many held-out blocks: the interval of a gain is drawn from them."""
+"""A diagnosis needs many held-out blocks: the interval of a gain is drawn from them."""
 
 APPLY, REPORT = "apply", "report"
 
@@ -34,7 +34,7 @@ class BootstrapOptions:
         """Refuse what no generator can draw."""
         if not 0 <= self.draws <= 2000 or not 0 <= self.seed < 2**32:
             raise OptionError(
-                "the bootstrap options make no sense",
+                "the bootstrap options are not valid",
                 evidence={"draws": self.draws, "seed": self.seed},
                 remedy="ask for 0 to 2000 draws and a seed from 0 to 4294967295",
             )
@@ -119,7 +119,7 @@ def parse_options(options: Mapping[str, object] | None) -> IdentifyOptions:
     Raises
     ------
     OptionError
-        If an option is not known, has the wrong type, or makes no sense.
+        If an option is not known, has the wrong type, or is not valid.
 
     Examples
     --------
@@ -137,7 +137,7 @@ def parse_diagnose_options(options: Mapping[str, object] | None) -> IdentifyOpti
     Raises
     ------
     OptionError
-        If an option is not known, has the wrong type, or makes no sense.
+        If an option is not known, has the wrong type, or is not valid.
 
     Examples
     --------

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import null_space, qr, solve_triangular
 
-from ..arrays import BaseParameters, EquationRows, LinkParameters, Matrix, Parameters
+from ..arrays import BaseParameters, EquationRows, LinkParameters, LinkTable, Matrix, Parameters
 from ..errors import RobotError
 from ..estimate.constraints import link_columns
 from ..estimate.gaussian_prior import GaussianPrior
@@ -127,6 +127,14 @@ def body_spread(body: LinkParameters, deviation: float = PRIOR_DEVIATION) -> Equ
             entry[row, column] = entry[column, row] = deviation * root[row] * root[column]
             directions.append(link_parameters(entry))
     return np.array(directions).T
+
+
+def bodies_spread(rows: EquationRows, bodies: LinkTable, deviation: float) -> EquationRows:
+    """Give the directions of all bodies in equations over their parameters, ten columns each."""
+    spread = [
+        rows[:, 10 * link : 10 * link + 10] @ body_spread(body, deviation) for link, body in enumerate(bodies)
+    ]
+    return np.hstack(spread)
 
 
 def _whiten(combinations: EquationRows, spread: EquationRows) -> EquationRows:

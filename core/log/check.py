@@ -11,11 +11,11 @@ import numpy as np
 
 from ..arrays import JointVector
 from ..errors import LogError
-from .binding import Binding
 from .channels import TIME
+from .columns.binding import Binding
+from .columns.suggestion import explained, suggest_mappings, suggest_units
 from .model import JointLog
 from .reader import bind_columns, open_table, read_table
-from .suggestion import explained, suggest_mappings, suggest_units
 
 PIECE_ROWS = 1 << 16
 

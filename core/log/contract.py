@@ -10,8 +10,8 @@ import numpy as np
 from ..arrays import JointVector, Series
 from ..errors import LogError
 from .channels import EFFORTS
+from .columns.layout import Layout
 from .defects.stretch import Facts, Stretch
-from .layout import Layout
 
 FEWEST_ROWS = 100
 SHORTEST_SECONDS = 1.0
@@ -56,7 +56,7 @@ def check_sequence(facts: Facts) -> None:
     if not moving or float(np.mean(facts.roughness[moving])) < least:
         return
     raise LogError(
-        "the positions of successive rows have nothing to do with each other: the rows were shuffled "
+        "the positions of successive rows do not continue each other: the rows were shuffled "
         "without their stamps",
         evidence={
             "steps_over_variance": [round(float(facts.roughness[joint]), 3) for joint in moving],
@@ -169,7 +169,7 @@ class Contract:
         if self._first_disorder is None:
             return
         row, before, after = self._first_disorder
-        cause = "time goes backwards" if self._backwards else "time stands still: stamps occur twice"
+        cause = "time goes backwards" if self._backwards else "stamps occur twice"
         raise LogError(
             cause,
             evidence={

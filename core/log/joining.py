@@ -5,22 +5,24 @@ files hold is brought to it, inside the time that all share: as it is where the 
 positions by a cubic through four samples, and torques, which carry noise, by a straight line between two.
 """
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from ..arrays import Instants, Samples
+from ..arrays import Instants, SampleMask, Samples
 from ..errors import LogError
 from .channels import CHANNELS, TIME, UNITS
-from .column_families import channel_of, name_words
+from .columns.families import channel_of, name_words
+from .columns.named_units import unit_called, unit_in_name
+from .columns.plausible_units import plausible_readings
 from .defects.stretch import count_text
 from .formats.table import Table, check_values
-from .named_units import unit_called, unit_in_name
-from .plausible_units import plausible_readings
 from .reader import open_table
 
 CUBIC_POINTS = 4
@@ -61,27 +63,35 @@ def join_logs(paths: Sequence[Path]) -> Joined:
         If a file has no clock, or clocks share less than half of the shortest file's time.
     """
     parts = [_read(path) for path in paths]
-    first = next((part for part in parts if any(map(_is_position, part.columns))), parts[0])
-    begin, end = max(part.time[0] for part in parts), min(part.time[-1] for part in parts)
-    _check_shared(parts, float(begin), float(end))
-    inside = (first.time >= begin) & (first.time <= end)
+    first = _leading(parts)
+    inside = _shared_time(parts, first.time)
     clock = first.time[inside]
     columns, notes = {TIME: clock}, []
-    taken = _repeated([name for part in parts for name in part.columns])
+    taken = _repeated(parts)
     for part in parts:
-        same = len(part.time) == len(first.time) and np.array_equal(part.time, first.time)
+        same = np.array_equal(part.time, first.time)
         for name, values in part.columns.items():
-            kept = values[inside] if same else _brought(name, clock, part.time, values)
-            columns[f"{part.name}_{name}" if name in taken else name] = kept
+            own = f"{part.name}_{name}" if name in taken else name
+            columns[own] = values[inside] if same else _brought(name, clock, part.time, values)
         if not same:
-            notes.append(
-                f"{part.name}: brought to the clock of {first.name} by straight lines between samples"
-            )
+            notes.append(f"{part.name}: interpolated at the stamps of {first.name}")
     check_values(len(columns) * len(clock))
-    if not inside.all():
-        outside = count_text(int(np.count_nonzero(~inside)), "row")
-        notes.append(f"{outside} of {first.name} outside the shared time left out")
+    outside = int(np.count_nonzero(~inside))
+    if outside:
+        notes.append(f"{count_text(outside, 'row')} of {first.name} outside the shared time left out")
     return Joined(columns, tuple(notes))
+
+
+def _shared_time(parts: Sequence[_Part], time: Samples) -> SampleMask:
+    """Mark the instants of which every file has some; they are at least half of the shortest."""
+    begin, end = max(part.time[0] for part in parts), min(part.time[-1] for part in parts)
+    _check_shared(parts, float(begin), float(end))
+    return np.asarray((time >= begin) & (time <= end))
+
+
+def _leading(parts: Sequence[_Part]) -> _Part:
+    """Give the first file with positions, whose clock the others are brought to; else the first."""
+    return next((part for part in parts if any(map(_is_position, part.columns))), parts[0])
 
 
 def _is_position(name: str) -> bool:
@@ -157,5 +167,6 @@ def _check_shared(parts: Sequence[_Part], begin: float, end: float) -> None:
     )
 
 
-def _repeated(names: Sequence[str]) -> set[str]:
-    return {name for name in names if names.count(name) > 1}
+def _repeated(parts: Sequence[_Part]) -> set[str]:
+    counts = Counter(chain(*(part.columns for part in parts)))
+    return {name for name, count in counts.items() if count > 1}

@@ -10,8 +10,8 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from ..arrays import JointSeries, Samples
-from .binding import Binding
 from .channels import JOINT_CHANNELS
+from .columns.binding import Binding
 
 
 @dataclass(frozen=True)

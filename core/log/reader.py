@@ -13,8 +13,12 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import LogError
-from .binding import Binding
 from .channels import CHANNELS, EFFORTS, JOINT_CHANNELS, TIME
+from .columns.binding import Binding
+from .columns.layout import Layout, bind
+from .columns.mapping import by_name, parse_mapping
+from .columns.profiles import fill_in
+from .columns.suggestion import explained, suggest_mappings
 from .defects.examine import examine
 from .formats.combine import combine_stamps, split_lists
 from .formats.content import BAG, DELIMITED, MATLAB5, MATLAB7, MCAP, NPZ, PARQUET, Form, recognise
@@ -26,14 +30,10 @@ from .formats.npz import open_npz
 from .formats.parquet import ParquetSource, ParquetTable, open_parquet
 from .formats.recording import open_bag, open_mcap
 from .formats.table import Table
-from .layout import Layout, bind
-from .mapping import by_name, parse_mapping
 from .model import ArraySource, Defect, JointLog, LogRows, LogSource
 from .pieces.choose import choose_rows
 from .pieces.missing import scarce_channels, scarce_defect
 from .pieces.survey import survey
-from .profiles import fill_in
-from .suggestion import explained, suggest_mappings
 
 OPENERS: dict[Form, Callable[[Path], Table]] = {
     DELIMITED: open_delimited,
@@ -63,7 +63,7 @@ def read_log(
     media_type
         The declared content type, checked against the bytes.
     mapping
-        Which column is what in which unit; see `core.log.mapping`. Default names need none.
+        Channel and unit of each column; see `core.log.columns.mapping`. Default names need none.
     name
         The log's name; the file's stem if None.
     sha256

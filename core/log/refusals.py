@@ -6,9 +6,9 @@ from difflib import get_close_matches
 
 from ..errors import LogError
 from .channels import CHANNELS, UNITS
+from .columns.mapping import ChannelRequest
+from .columns.plausible_units import readings_by_column
 from .formats.table import BY_NUMBER, Table
-from .mapping import ChannelRequest
-from .plausible_units import readings_by_column
 
 SHOWN_COLUMNS = 24
 NUMBERED = (

@@ -64,7 +64,7 @@ def _place_link(pose, position, joint, begin, count, scale, offset, slides, rota
 
 
 @njit(inline="always")
-def _copy(table, index, rows, many, count) -> None:
+def copy_rows(table, index, rows, many, count) -> None:
     """Copy rows into a table; a loop that read and wrote the same table would not be vectorised."""
     for row in range(many):
         for s in range(count):
@@ -98,7 +98,7 @@ def _move_link(
         moved[6, s] = pose[0, s] * a0 + pose[3, s] * a1 + pose[6, s] * a2 + slides * (2.0 * u1 * v)
         moved[7, s] = pose[1, s] * a0 + pose[4, s] * a1 + pose[7, s] * a2 - slides * (2.0 * u0 * v)
         moved[8, s] = pose[2, s] * a0 + pose[5, s] * a1 + pose[8, s] * a2 + slides * dv
-    _copy(motion, own, moved, 9, count)
+    copy_rows(motion, own, moved, 9, count)
 
 
 @njit(inline="always")
@@ -135,7 +135,7 @@ def _move_axis(axis, inner, outer, pose, moved, count) -> None:
         moved[3, s] = pose[0, s] * y0 + pose[3, s] * y1 + pose[6, s] * y2
         moved[4, s] = pose[1, s] * y0 + pose[4, s] * y1 + pose[7, s] * y2
         moved[5, s] = pose[2, s] * y0 + pose[5, s] * y1 + pose[8, s] * y2
-    _copy(axis, outer, moved, 6, count)
+    copy_rows(axis, outer, moved, 6, count)
 
 
 @njit(inline="always")

@@ -5,9 +5,10 @@ products that tell how far the residual's memory inflates a variance. Blocks are
 choose from.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
+from typing import TypeVar
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from .memory import LaggedProducts, TurningProducts
 
 _POSITIONS_PER_TILE = 32
 _UNMARKED = np.zeros(0, dtype=bool)
+Products = TypeVar("Products")
 Progress = Callable[[float], None]
 
 
@@ -41,7 +43,7 @@ class Observation:
     positions: JointSeries
     """A sample of the positions along the motions, rad or m."""
     kept: int
-    """Number of kept instants; a joint's factors have fewer rows where instants were unusable for it."""
+    """Number of decimated samples; a joint's factors have fewer rows where instants were unusable for it."""
 
     def joint_factors(self, chosen: tuple[int, ...] | None = None) -> tuple[Factor, ...]:
         """Merge the factors of the chosen blocks (all by default), one per joint."""
@@ -83,9 +85,9 @@ class Observation:
             (held if (block.log, block.number) in held_out else fitted).append(index)
         if held_out and not any(factor.rows for index in held for factor in self.blocks[index].factors):
             raise OptionError(
-                "no kept instant lies in the held-out blocks",
+                "no sample used lies in the held-out blocks",
                 evidence={"instants kept": self.kept, "blocks held out": len(held_out)},
-                remedy="keep more instants (smaller decimation, longer log), or hold out longer blocks",
+                remedy="use more samples (smaller decimation, longer log), or hold out longer blocks",
             )
         return tuple(fitted), tuple(held)
 
@@ -121,6 +123,13 @@ class Observation:
         )
 
 
+def _merged_by_joint(
+    merge: Callable[[Products, Products], Products], motions: Sequence[Sequence[Products]]
+) -> tuple[Products, ...]:
+    """Merge what every motion has gathered, joint by joint."""
+    return tuple(reduce(merge, of_joint) for of_joint in zip(*motions, strict=True))
+
+
 def observe(
     plan: ColumnPlan,
     motions: tuple[Motion, ...],
@@ -145,14 +154,8 @@ def observe(
     gathered = [_Gathering(plan, weigh, held_out, number) for number in range(len(motions))]
     total = _take_all(motions, gathered, progress)
     blocks = tuple(block for gathering in gathered for block in gathering.blocks())
-    joints = range(len(plan.columns_of))
-    memory = tuple(
-        reduce(LaggedProducts.merged, (gathering.memory[joint] for gathering in gathered)) for joint in joints
-    )
-    turning = tuple(
-        reduce(TurningProducts.merged, (gathering.turning[joint] for gathering in gathered))
-        for joint in joints
-    )
+    memory = _merged_by_joint(LaggedProducts.merged, [gathering.memory for gathering in gathered])
+    turning = _merged_by_joint(TurningProducts.merged, [gathering.turning for gathering in gathered])
     positions = np.vstack([position for gathering in gathered for position in gathering.positions])
     return Observation(plan, blocks, plan.columns_of, memory, turning, positions, total)
 
@@ -236,7 +239,7 @@ def compare(plan: ColumnPlan, tile: Tile, parameters: BaseParameters) -> tuple[J
 
 @dataclass(frozen=True, eq=False)
 class ResidualTile:
-    """Carry filtered torque and residual (measured minus predicted), N m, of all joints at kept instants."""
+    """Carry filtered torque and residual (measured minus predicted), N m, of all joints, decimated."""
 
     time: Samples
     torque: JointSeries

@@ -5,6 +5,7 @@ Without either a link is assumed to lie about its joint's axis and the axes it c
 their axes, so the feet of the common normals count too. Source: Wensing, Kim & Slotine 2018, section IV.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -47,26 +48,29 @@ def link_extents(robot: RobotModel) -> tuple[Extent | None, ...]:
     >>> link_extents(RobotModel("pendulum", (link,), (Joint("pivot"),), np.zeros(3)))
     (None,)
     """
+    carriers = {link.antecedent for link in robot.links}
     distances = [_distance(robot, link) for link in robot.links if link.antecedent]
     longest, reach = max(distances, default=0.0), sum(distances)
     margin = BODY + SHARE_OF_REACH * reach
     found: list[Extent | None] = []
     for index in range(len(robot.links)):
         points = _axis_points(robot, index)
-        is_tip = all(other.antecedent != index + 1 for other in robot.links)
+        is_tip = index + 1 not in carriers
         shape = None if robot.shapes is None else robot.shapes[index]
         if shape is not None:
-            whole = Ball.joined((shape, Ball.around(points)))
-            found.append(
-                Extent(_grown(whole, GEOMETRY, LEAST_ASSUMED if is_tip else 2.0 * GEOMETRY), "shapes")
-            )
+            found.append(_of_shape(shape, points, is_tip=is_tip))
         elif longest == 0.0:
             found.append(None)
         else:
-            beyond = margin + (TIP * longest if is_tip else 0.0)
-            ball = _grown(Ball.around(points), beyond, LEAST_ASSUMED)
+            ball = _grown(Ball.around(points), margin + TIP * longest * is_tip, LEAST_ASSUMED)
             found.append(Extent(_with_prior(ball, robot, index), "axes"))
     return tuple(found)
+
+
+def _of_shape(shape: Ball, points: Sequence[np.ndarray], *, is_tip: bool) -> Extent:
+    """Give the extent of a link whose shape is described."""
+    whole = Ball.joined((shape, Ball.around(points)))
+    return Extent(_grown(whole, GEOMETRY, LEAST_ASSUMED if is_tip else 2.0 * GEOMETRY), "shapes")
 
 
 def _grown(ball: Ball, margin: float, least: float) -> Ball:

@@ -68,13 +68,10 @@ def angle_remarks(angles: Mapping[str, float]) -> list[str]:
         for name, angle in angles.items()
         if abs(angle) > 2.0 * np.pi
     ]
-    near = {
-        name: angle
-        for name, angle in angles.items()
-        if SAID_FROM < abs(angle - nearest_right_angle(angle)) < _ALMOST
-    }
-    missing = [f"{name} {angle:.7g} rad" for name, angle in near.items() if meant_angle(angle) == angle]
-    taken = [f"{name} {angle:.7g} rad" for name, angle in near.items() if meant_angle(angle) != angle]
+    missing, taken = list[str](), list[str]()
+    for name, angle in angles.items():
+        if SAID_FROM < abs(angle - nearest_right_angle(angle)) < _ALMOST:
+            (missing if meant_angle(angle) == angle else taken).append(f"{name} {angle:.7g} rad")
     if missing:
         found.append(
             "angles are almost but not quite right angles and taken as written (were right angles meant?): "

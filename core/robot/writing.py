@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import RobotError
 from .description import FRAMES, MODIFIED_DH
-from .model import INERTIAL_SYMBOLS, Ball, Joint, Link, NamedFrame, RobotModel
+from .model import INERTIAL_SYMBOLS, Ball, Coupling, Joint, Link, NamedFrame, RobotModel
 
 
 def to_description(robot: RobotModel) -> dict[str, object]:
@@ -30,22 +30,23 @@ def to_description(robot: RobotModel) -> dict[str, object]:
             for index, link in enumerate(robot.links)
         ],
         "gravity": _floats(robot.gravity),
-        "couplings": [
-            {
-                "name": coupling.name,
-                "number": coupling.number,
-                "joints": list(coupling.joints),
-                "weights": list(coupling.weights),
-            }
-            for coupling in robot.couplings
-        ],
-        "prior": None if robot.prior is None else [_body(body) for body in robot.prior],
+        "couplings": list(map(_coupling, robot.couplings)),
+        "prior": None if robot.prior is None else list(map(_body, robot.prior)),
     }
     if robot.frames:
-        description["frames"] = [_named_frame(frame) for frame in robot.frames]
+        description["frames"] = list(map(_named_frame, robot.frames))
     if robot.shapes is not None:
-        description["shapes"] = [_ball(shape) for shape in robot.shapes]
+        description["shapes"] = list(map(_ball, robot.shapes))
     return description
+
+
+def _coupling(coupling: Coupling) -> dict[str, object]:
+    return {
+        "name": coupling.name,
+        "number": coupling.number,
+        "joints": list(coupling.joints),
+        "weights": list(coupling.weights),
+    }
 
 
 def _entry(link: Link, joint: Joint, *, tabular: bool, owner: bool) -> dict[str, object]:

@@ -37,7 +37,7 @@ class Motion:
 
     @cached_property
     def kept(self) -> int:
-        """Count the kept instants of all segments."""
+        """Count the decimated samples of all segments."""
         return sum(segment.kept for segment in self.segments)
 
     def tiles(self) -> Iterator[Tile]:

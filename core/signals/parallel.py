@@ -1,8 +1,8 @@
 """Filter and thin many series at once: the parallel filter as one matrix product per tile.
 
 Filtering both sides of a linear equation with the same linear filter leaves the equation true; so no delay,
-no edge effect and no choice of cut-off can bias it. Only the kept instants are computed. A tile is a stretch
-of motion together with its filter. Source: Gautier 1997; Khalil & Dombre (2002), ch. 12.
+no edge effect and no choice of cut-off can bias it. Only the decimated samples are computed. A tile is a
+stretch of motion together with its filter. Source: Gautier 1997; Khalil & Dombre (2002), ch. 12.
 """
 
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ class ParallelFilter:
 
     @cached_property
     def _band(self) -> Matrix:
-        """Write `_ROWS` consecutive kept instants as rows of a matrix over the samples they see."""
+        """Write `_ROWS` consecutive decimated samples as rows of a matrix over the samples they see."""
         span = (_ROWS - 1) * self.decimation + len(self.response)
         band = np.zeros((span, _ROWS))
         for row in range(_ROWS):
@@ -68,7 +68,7 @@ class ParallelFilter:
 
 @dataclass(frozen=True, eq=False)
 class Tile:
-    """Carry a stretch of motion at the log's rate, with the parallel filter's kept instants inside it."""
+    """Carry a stretch of motion at the log's rate, with the parallel filter's decimated samples inside it."""
 
     state: MotionState
     """Position, velocity, acceleration at the log's rate, the filter's reach included."""
@@ -77,15 +77,15 @@ class Tile:
     parallel: ParallelFilter
     first: int
     time: Instants
-    """Sample at which the first kept instant lies, and the kept instants in s."""
+    """Sample at which the first decimated sample lies, and the decimated samples in s."""
     usable: InstantMask
-    """Which kept instants may be used for which joint."""
+    """Which decimated samples may be used for which joint."""
     turning: InstantMask
     """Which of these lie so near a reversal that the direction of the joint's friction is in doubt."""
     block: int
     """Number of the log's block that the tile belongs to."""
     follows: bool
-    """Whether its first kept instant comes right after the last of the tile before, without a gap."""
+    """Whether its first decimated sample comes right after the last of the tile before, without a gap."""
 
     def filtered(self, series: Series) -> KeptSeries:
         """Apply the parallel filter to rows of samples and keep the tile's instants."""

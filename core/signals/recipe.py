@@ -76,7 +76,7 @@ class FilterOptions:
         wrong |= {name: value for name, value in self.cutoffs_hz.items() if value <= 0.0}
         if wrong:
             raise OptionError(
-                "the filter options make no sense",
+                "the filter options are not valid",
                 evidence=wrong,
                 remedy="give cut-offs above 0 Hz, an odd median_order from 1 to 31, an order from 1 to "
                 f"{HIGHEST_ORDER} and a decimation from 1 to 1000",

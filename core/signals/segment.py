@@ -39,7 +39,7 @@ EFFORT_SPIKES = (("outliers", "torque"), ("outliers", "current"))
 ROUNDING = 1e-9
 """Share of a limit by which a value at it may be off after conversion of units."""
 UNUSABLE_SHARE = 0.05
-"""A kept instant is left out when more of the parallel filter's mass than this falls on unusable samples."""
+"""A decimated sample is left out when more of the parallel filter's weight falls on unusable samples."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +61,7 @@ class Segment:
 
     @cached_property
     def kept(self) -> int:
-        """Count the kept instants."""
+        """Count the decimated samples."""
         return (self.samples - 1) // self.recipe.decimation + 1
 
     @cached_property
@@ -92,7 +92,7 @@ class Segment:
         return int(np.ceil(self.rate_hz / self.recipe.position_cutoff_hz))
 
     def tile(self, effort_scale: JointVector, first_kept: int, last_kept: int, block: int) -> Tile:
-        """Condition the stretch that the kept instants from first up to, not including, last need."""
+        """Condition the stretch that the decimated samples from first up to, not including, last need."""
         step = self.recipe.decimation
         first, (begin, end) = first_kept * step, self._seen(first_kept, last_kept)
         # A standstill is known by its length, so the search for it reaches that much further than the filter.
@@ -124,13 +124,13 @@ class Segment:
         )
 
     def effort(self, first_kept: int, last_kept: int) -> tuple[JointSeries, int]:
-        """Give the effort that such kept instants see, and the sample at which the first of them lies."""
+        """Give the effort that such decimated samples see, and the sample at which the first of them lies."""
         begin, end = self._seen(first_kept, last_kept)
         _, effort, _ = self._read(begin, end)
         return effort, first_kept * self.recipe.decimation - begin
 
     def _seen(self, first_kept: int, last_kept: int) -> tuple[int, int]:
-        """Give the samples that kept instants see, from the first up to, not including, the last."""
+        """Give the samples that decimated samples see, from the first up to, not including, the last."""
         step, reach = self.recipe.decimation, self.parallel.reach
         return max(0, first_kept * step - reach), min(self.samples, (last_kept - 1) * step + reach + 1)
 

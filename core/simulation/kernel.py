@@ -14,17 +14,9 @@ composite rigid bodies).
 import numpy as np
 from numba import njit
 
-from ..regressor.kernel import sine_cosine
+from ..regressor.kernel import copy_rows, sine_cosine
 
 BLOCK = 64
-
-
-@njit(inline="always")
-def _copy(table, index, rows, many, count) -> None:
-    """Copy rows into a table; a loop that read and wrote the same table would not be vectorised."""
-    for row in range(many):
-        for s in range(count):
-            table[index, row, s] = rows[row, s]
 
 
 @njit(inline="always")
@@ -58,7 +50,7 @@ def _place_link(
         moved[7, s] = r0 * y0 + r1 * y1 + r2 * y2
         moved[8, s] = r0 * f02 + r1 * f12 + r2 * f22
         moved[11, s] = frame[parent, 11, s] + r0 * p0 + r1 * p1 + r2 * p2
-    _copy(frame, own, moved, 12, count)
+    copy_rows(frame, own, moved, 12, count)
 
 
 @njit(inline="always")
@@ -90,7 +82,7 @@ def _move_link(motion, parent, own, moved, axis, velocity, acceleration, joint, 
         moved[9, s] = motion[parent, 9, s] + a * y0 + v * (w1 * y2 - w2 * y1 + u1 * x2 - u2 * x1)
         moved[10, s] = motion[parent, 10, s] + a * y1 + v * (w2 * y0 - w0 * y2 + u2 * x0 - u0 * x2)
         moved[11, s] = motion[parent, 11, s] + a * y2 + v * (w0 * y1 - w1 * y0 + u0 * x1 - u1 * x0)
-    _copy(motion, own, moved, 12, count)
+    copy_rows(motion, own, moved, 12, count)
 
 
 @njit(inline="always")

@@ -29,7 +29,7 @@ _AT_ONCE = 1024
 
 @dataclass(frozen=True)
 class MultiStepOptions:
-    """Choose horizons and how often a window starts, s; windows start at kept instants only."""
+    """Choose horizons and how often a window starts, s; windows start at decimated samples only."""
 
     horizons: tuple[float, ...] = (0.05, 0.1, 0.2)
     every: float = 0.1
@@ -41,7 +41,7 @@ class MultiStepOptions:
         good = self.horizons and self.horizons[0] > 0.0 and rising and self.horizons[-1] <= 10.0
         if not good or self.every <= 0.0 or not 1e-6 <= self.longest_step <= 0.1:
             raise OptionError(
-                "the horizons make no sense",
+                "the horizons are not valid",
                 evidence={
                     "horizons": list(self.horizons),
                     "every": self.every,

@@ -49,7 +49,7 @@ class ReplayOptions:
         """Refuse controllers that are none."""
         if self.feed_forward not in {"measured", "model", "none"} or not 0.01 <= self.bandwidth_hz <= 100.0:
             raise OptionError(
-                "the controller of the replay makes no sense",
+                "the controller of the replay is not valid",
                 evidence={"feed_forward": self.feed_forward, "bandwidth_hz": self.bandwidth_hz},
                 remedy="feed forward measured, model or none, with a bandwidth from 0.01 to 100 Hz",
             )
@@ -140,7 +140,7 @@ def replay(
     measured = tuple(stretches(motions, chosen))
     if not measured:
         raise OptionError(
-            "there is no block to play again",
+            "there is no block to simulate again",
             evidence={"chosen": sorted(chosen or ())},
             remedy="choose blocks that the logs have",
         )

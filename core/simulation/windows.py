@@ -1,4 +1,4 @@
-"""Cut measured motion into windows that start at kept instants and end within the same block of the log.
+"""Cut measured motion into windows that start at decimated samples and end within the same block of the log.
 
 A window never crosses a gap, the border of a block, or what the filters spoil at a log's ends; standing
 joints stay in, because a simulation has to get standstill right too.
@@ -25,7 +25,7 @@ class Stretch:
     step: float
     """Time between samples, s."""
     every: int
-    """Samples between two kept instants; the first sample is one."""
+    """Samples between two decimated samples; the first sample is one."""
     time: Samples
     state: MotionState
     torque: JointSeries

@@ -27,7 +27,7 @@ class HoldOut:
         """Refuse hold-outs that leave nothing to fit or nothing to divide."""
         if not 0.0 <= self.fraction <= 0.5 or not 4 <= self.blocks <= 200:
             raise OptionError(
-                "the hold-out makes no sense",
+                "the hold-out is not valid",
                 evidence={"fraction": self.fraction, "blocks": self.blocks},
                 remedy="hold out a fraction from 0 to 0.5 of 4 to 200 blocks",
             )

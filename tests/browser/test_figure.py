@@ -4,7 +4,7 @@ import numpy as np
 
 from veritorque.core.robot.builtin import builtin_description
 from veritorque.core.robot.description import robot_from_description
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 from veritorque.core.robot.writing import to_description
 
 GANTRY = {

@@ -19,7 +19,7 @@ from tests.tools import SHARED
 from veritorque.core.log.model import JointLog
 from veritorque.core.log.reader import read_log
 from veritorque.core.robot.model import RobotModel
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 from veritorque.core.study import IdentifyRequest, identify
 
 RUNS = {

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from veritorque.core.log.assignment import Assignment, assigned
+from veritorque.core.log.columns.assignment import Assignment, assigned
 from veritorque.core.log.model import JointLog, whole_rows
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.model import RobotModel

@@ -17,7 +17,7 @@ from veritorque.core.log.model import JointLog
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.model import RobotModel
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 from veritorque.core.study import IdentifyRequest, identify
 
 ROOT = Path(__file__).parents[2]

@@ -13,8 +13,8 @@ from veritorque.core.dynamics.model import STANDARD_TERMS
 from veritorque.core.estimate.methods.registry import ESTIMATORS
 from veritorque.core.identification.options import parse_options
 from veritorque.core.log.channels import CHANNELS, UNITS
+from veritorque.core.log.columns.mapping import parse_mapping
 from veritorque.core.log.formats.content import FORMS
-from veritorque.core.log.mapping import parse_mapping
 from veritorque.core.log.model import Defect
 from veritorque.core.robot.description import (
     COUPLING_FIELDS,
@@ -25,7 +25,7 @@ from veritorque.core.robot.description import (
     robot_from_description,
 )
 from veritorque.core.robot.plausibility import plausibility_warnings
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 
 ROOT = Path(__file__).parents[2]
 GUIDES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]

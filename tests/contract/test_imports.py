@@ -19,6 +19,8 @@ CONTRACTS = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["import
 
 SKELETON = (
     "veritorque.core.arrays",
+    "veritorque.core.diagnosis.checks",
+    "veritorque.core.diagnosis.search",
     "veritorque.core.dynamics.terms",
     "veritorque.core.errors",
     "veritorque.core.estimate.programme",
@@ -57,6 +59,8 @@ REFUSED = (
     ("chapters-in-order", "veritorque.core.dynamics.terms", "veritorque.core.regressor.kernel"),
     ("chapters-in-order", "veritorque.core.errors", "veritorque.core.arrays"),
     ("chapters-in-order", "veritorque.core.helpers", "veritorque.core.errors"),  # a folder without a place
+    ("rooms-of-the-diagnosis", "veritorque.core.diagnosis.search", "veritorque.core.diagnosis.checks"),
+    ("rooms-of-the-diagnosis", "veritorque.core.diagnosis.helpers", "veritorque.core.errors"),
     ("solvers-in-estimate", "veritorque.core.regressor.kernel", "cvxpy"),
     ("solvers-in-estimate", "veritorque.app.main", "clarabel"),
     ("compiled-kernels", "veritorque.core.dynamics.terms", "numba"),
@@ -101,7 +105,7 @@ def test_every_module_of_the_project_imports_only_what_it_may():
     assert result.returncode == 0, result.stdout + result.stderr
 
 
-def test_the_imports_that_the_story_needs_are_allowed(tmp_path):
+def test_the_imports_that_the_method_needs_are_allowed(tmp_path):
     lay_out(tmp_path, ALLOWED)
     result = lint(tmp_path)
     assert result.returncode == 0, result.stdout + result.stderr

@@ -16,6 +16,18 @@ PACKAGES = [
     *sorted((ROOT / "tests").rglob("__init__.py")),
 ]
 LONGEST_FILE = 300
+MOST_BRANCHES = 8
+BRANCHES = (
+    ast.If,
+    ast.IfExp,
+    ast.For,
+    ast.AsyncFor,
+    ast.While,
+    ast.ExceptHandler,
+    ast.Assert,
+    ast.match_case,
+    ast.comprehension,
+)
 
 
 def label(path: Path) -> str:
@@ -41,6 +53,43 @@ def is_sentence(docstring: str | None) -> bool:
 def test_a_file_holds_one_idea_in_at_most_300_lines():
     lengths = {label(path): len(path.read_text(encoding="utf-8").splitlines()) for path in MODULES}
     assert {name: lines for name, lines in lengths.items() if lines > LONGEST_FILE} == {}
+
+
+def complexity(function: ast.AST) -> int:
+    """Count the paths through a function as McCabe does, with comprehensions, `and` and `or`."""
+    inside = [node for node in ast.walk(function) if node is not function]
+    inner = sum(isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) for node in inside)
+    conditions = sum(len(node.ifs) for node in inside if isinstance(node, ast.comprehension))
+    operands = sum(len(node.values) - 1 for node in inside if isinstance(node, ast.BoolOp))
+    otherwise = sum(
+        bool(node.orelse) for node in inside if isinstance(node, ast.For | ast.AsyncFor | ast.While | ast.Try)
+    )
+    branches = sum(isinstance(node, BRANCHES) for node in inside)
+    return 1 + branches + inner + conditions + operands + otherwise
+
+
+def test_few_functions_have_more_branches_than_a_reader_holds_in_mind():
+    functions = [
+        (f"{label(path)}:{node.name}", complexity(node))
+        for path in MODULES
+        for node in ast.walk(tree(path))
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
+    ]
+    over = [name for name, paths in functions if paths > MOST_BRANCHES]
+    assert len(over) <= 0.013 * len(functions), over
+
+
+@pytest.mark.parametrize(
+    ("code", "paths"),
+    [
+        ("def f(): return 1", 1),
+        ("def f(x): return [y for y in x if y or not y]", 4),
+        ("def f(x):\n    for y in x: break\n    else: return 1 if x else 2", 4),
+        ("def f(x):\n    def g():\n        try: x()\n        except E: pass", 3),
+    ],
+)
+def test_paths_through_comprehensions_and_inner_functions_are_counted(code, paths):
+    assert complexity(ast.parse(code).body[0]) == paths
 
 
 def test_a_package_says_what_comes_in_and_goes_out_and_does_nothing_else():

@@ -1,4 +1,4 @@
-"""Keep every number that decides a diagnosis in `core/diagnosis/thresholds`, with its meaning and source."""
+"""Keep every number that decides what is named where numbers are kept, with its meaning and source."""
 
 import ast
 import re
@@ -8,85 +8,109 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2] / "core" / "diagnosis"
-THRESHOLDS = sorted((ROOT / "thresholds").glob("[a-z]*.py"))
-MODULES = sorted(path for path in ROOT.rglob("*.py") if path not in THRESHOLDS)
+ROOT = Path(__file__).parents[2] / "core"
+THRESHOLDS = sorted([*ROOT.glob("*/thresholds.py"), *ROOT.glob("diagnosis/thresholds/[a-z]*.py")])
+ROOMS = ("audit", "conflicts", "diagnosis", "extension")
+MODULES = sorted(path for room in ROOMS for path in (ROOT / room).rglob("*.py") if path not in THRESHOLDS)
 
 NAMED = {
     "grid": {
-        "causes/backlash": "NARROWEST WIDEST STEPS",
-        "causes/cable_force": "SHARES",
-        "causes/friction_position_dependent": "MOST",
-        "causes/friction_presliding": "NARROWEST WIDEST STEPS",
-        "causes/friction_stribeck": "SLOWEST QUICKEST STEPS",
-        "causes/friction_temperature": "SHARES",
-        "causes/friction_viscous_nonlinear": "EXPONENTS",
-        "causes/joint_elasticity": "LOWEST HIGHEST POINTS DAMPING_RATIOS",
-        "causes/payload_change": "INSTANTS",
-        "causes/shared/harmonics": "DISTINCT",
-        "causes/shared/own_joint": "MOTOR_SHARES",
-        "causes/time_delay": "STARTS",
-        "causes/torque_filter_lag": "STARTS",
-        "causes/torque_offset_drift": "SHARES",
-        "causes/torque_ripple": "MOST BAND_SHARE",
-        "causes/torque_saturation": "SHARES",
-        "checks/change_points": "SMOOTHED FAR",
-        "checks/unnamed_pattern": "WAVES SLOWEST QUICKEST STEP FINER SWINGS",
-        "search/alignment": "PARTS",
-        "search/profile_likelihood": "AROUND FINER",
+        "conflicts/kinds/mounting": "_COARSE _USUAL _REFINEMENT",
+        "conflicts/kinds/zero_quarter_turn": "_DEGREES",
+        "diagnosis/causes/backlash": "NARROWEST WIDEST STEPS",
+        "diagnosis/causes/cable_force": "SHARES",
+        "diagnosis/causes/friction_position_dependent": "MOST",
+        "diagnosis/causes/friction_presliding": "NARROWEST WIDEST STEPS",
+        "diagnosis/causes/friction_stribeck": "SLOWEST QUICKEST STEPS",
+        "diagnosis/causes/friction_temperature": "SHARES",
+        "diagnosis/causes/friction_viscous_nonlinear": "EXPONENTS",
+        "diagnosis/causes/joint_elasticity": "LOWEST HIGHEST POINTS DAMPING_RATIOS",
+        "diagnosis/causes/payload_change": "INSTANTS",
+        "diagnosis/causes/shared/harmonics": "DISTINCT",
+        "diagnosis/causes/shared/own_joint": "MOTOR_SHARES",
+        "diagnosis/causes/time_delay": "STARTS",
+        "diagnosis/causes/torque_filter_lag": "STARTS",
+        "diagnosis/causes/torque_offset_drift": "SHARES",
+        "diagnosis/causes/torque_ripple": "MOST BAND_SHARE",
+        "diagnosis/causes/torque_saturation": "SHARES",
+        "diagnosis/checks/change_points": "SMOOTHED FAR",
+        "diagnosis/checks/unnamed_pattern": "WAVES SLOWEST QUICKEST STEP FINER SWINGS",
+        "diagnosis/search/alignment": "PARTS",
+        "diagnosis/search/profile_likelihood": "AROUND FINER",
     },
     "numerics": {
-        "bandwidth": "_POINTS",
-        "causes/backlash": "SMOOTHING_OVER_BAND",
-        "causes/shared/events": "FIRST_STEP HALVINGS _NOTHING _RIDGE ROUNDING",
-        "causes/torque_filter_lag": "ORDER PERIODS",
-        "checks/gain": "SEED",
-        "checks/kurtosis": "NORMAL",
-        "regression/gls": "RIDGE STEPS EXACT",
-        "regression/innovation_covariance": "MIDDLE",
-        "regression/nuisance": "LEAST EARLIER RIDGE",
-        "regression/prewhitening": "ROUNDING",
-        "residual/floor": "WINDOW_SECONDS _BELOW_NYQUIST _POINTS",
-        "residual/memory": "_LONGEST",
-        "residual/period": "NEWTON_STEPS _TAPS _TAPS_OF_A_LOG _LONGEST_LAG _WHOLE _KAISER",
-        "search/profile_likelihood": "RELATIVE_STEP LEAST_STEP WIDENINGS YIELDINGS SAME_SIZE",
+        "audit/contradictions": "ROUNDS IMPOSSIBLE",
+        "audit/description": "ROUNDING",
+        "audit/entries": "SIZES _AT _PAIRS",
+        "conflicts/normal": "_RIDGE _REWEIGHTINGS",
+        "conflicts/trial": "_GENERAL",
+        "extension/gain": "SEED",
+        "diagnosis/bandwidth": "_POINTS",
+        "diagnosis/causes/backlash": "SMOOTHING_OVER_BAND",
+        "diagnosis/causes/shared/events": "FIRST_STEP HALVINGS _NOTHING _RIDGE ROUNDING",
+        "diagnosis/causes/torque_filter_lag": "ORDER PERIODS",
+        "diagnosis/checks/gain": "SEED",
+        "diagnosis/checks/kurtosis": "NORMAL",
+        "diagnosis/regression/gls": "RIDGE STEPS EXACT",
+        "diagnosis/regression/innovation_covariance": "MIDDLE",
+        "diagnosis/regression/nuisance": "LEAST EARLIER RIDGE",
+        "diagnosis/regression/prewhitening": "ROUNDING",
+        "diagnosis/residual/floor": "WINDOW_SECONDS _BELOW_NYQUIST _POINTS",
+        "diagnosis/residual/memory": "_LONGEST",
+        "diagnosis/residual/period": "NEWTON_STEPS _TAPS _TAPS_OF_A_LOG _LONGEST_LAG _WHOLE _KAISER",
+        "diagnosis/search/profile_likelihood": "RELATIVE_STEP LEAST_STEP WIDENINGS YIELDINGS SAME_SIZE",
     },
+    "units": {"audit/description": "UNITS", "conflicts/kinds/unit": "_TORQUE_UNITS _POSITION_UNITS"},
     "effort": {
-        "bandwidth": "_SAMPLES",
-        "causes/dropped_samples": "ROWS",
-        "checks/clipped_channel": "ROWS",
-        "checks/gain": "DRAWS",
-        "dataset/dataset": "BATCH",
+        "diagnosis/bandwidth": "_SAMPLES",
+        "diagnosis/causes/dropped_samples": "ROWS",
+        "diagnosis/checks/clipped_channel": "ROWS",
+        "diagnosis/checks/gain": "DRAWS",
+        "diagnosis/dataset/dataset": "BATCH",
+        "extension/gain": "DRAWS",
     },
     "figure": {
-        "causes/exclusion": "EXCLUSIONS",
-        "causes/link_parameters": "LISTED",
-        "checks/figure": "BINS EXPLAINED",
-        "residual/atlas": "BINS FEWEST_IN_BIN _RIDGE",
-        "residual/learner": "_PLACES",
-        "residual/spectrum": "LONGEST SHORTEST",
+        "diagnosis/causes/exclusion": "EXCLUSIONS",
+        "diagnosis/causes/link_parameters": "LISTED",
+        "diagnosis/checks/figure": "BINS EXPLAINED",
+        "diagnosis/residual/atlas": "BINS FEWEST_IN_BIN _RIDGE",
+        "diagnosis/residual/learner": "_PLACES",
+        "diagnosis/residual/spectrum": "LONGEST SHORTEST",
     },
 }
 """Constants of modules that decide nothing, by the reason why.
 
 A grid discretises what is refined afterwards; numerics are tolerances, orders and constants of mathematics;
-effort only costs time or memory; a figure only shows and decides nothing.
+units are factors between units; effort only costs time or memory; a figure only shows and decides nothing.
 """
 UNNAMED = {
-    "causes/dropped_samples": {"0.01": "per cent"},
-    "causes/external_contact": {"3": "a force has three components"},
-    "causes/torque_gain_nonlinear": {"3.0": "root of a cubic", "1.5": "root of a cubic"},
-    "checks/confidence": {"4": "digits in a file"},
-    "checks/kurtosis": {
+    "audit/contradictions": {"3": "a body has three axes"},
+    "audit/description": {"3": "a point has three coordinates"},
+    "audit/entries": {
+        "3": "a mass centre has three coordinates",
+        "4": "numbers of a body before its inertia",
+        "6": "an inertia has six numbers",
+        "0.001": "a body of a gram",
+        "0.0001": "a body of a centimetre",
+    },
+    "conflicts/doubt": {"0.01": "per cent"},
+    "conflicts/kinds/gravity_compensated": {"3": "gravity has three components"},
+    "conflicts/time_base": {"3": "sums per joint", "65536": "rows read at once"},
+    "conflicts/trial": {"3": "gravity has three components", "9.81": "standard gravity"},
+    "diagnosis/causes/dropped_samples": {"0.01": "per cent"},
+    "diagnosis/causes/external_contact": {"3": "a force has three components"},
+    "diagnosis/causes/torque_gain_nonlinear": {"3.0": "root of a cubic", "1.5": "root of a cubic"},
+    "diagnosis/checks/confidence": {"4": "digits in a file"},
+    "diagnosis/checks/kurtosis": {
         "3.0": "fourth central moment",
         "4.0": "fourth central moment",
         "5": "powers 0 to 4",
         "6.0": "fourth central moment",
     },
-    "diagnose": {"0.1": "progress"},
-    "causes/timestamp_jitter": {"2": "joints are compared in pairs"},
-    "residual/atlas": {"2": "one bin has no curve"},
-    "residual/learner": {"0.5": "a sum of zeros and ones is not zero"},
+    "diagnosis/diagnose": {"0.1": "progress"},
+    "diagnosis/causes/timestamp_jitter": {"2": "joints are compared in pairs"},
+    "diagnosis/residual/atlas": {"2": "one bin has no curve"},
+    "diagnosis/residual/learner": {"0.5": "a sum of zeros and ones is not zero"},
 }
 """Numbers within functions that decide nothing, with the reason why."""
 PLAIN = {0, 1, 2, 0.5, 10, 100, 1000}
@@ -189,7 +213,7 @@ def test_every_threshold_says_what_it_decides_and_where_it_is_from(name, own, gr
 
 
 def test_every_threshold_is_used():
-    code = "\n".join(path.read_text(encoding="utf-8") for path in ROOT.parent.rglob("*.py"))
+    code = "\n".join(path.read_text(encoding="utf-8") for path in ROOT.rglob("*.py"))
     used = set(re.findall(r"\b[A-Z][A-Z0-9_]*\.\w+", code))
     assert [name for name, *_ in fields() if usage(name) not in used] == []
 

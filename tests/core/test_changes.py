@@ -11,8 +11,8 @@ from tests.plant.again import arm_of, logged, with_friction, with_gravity
 from tests.plant.effects.drive import TorqueGain
 from tests.plant.effects.surroundings import PayloadChange
 from veritorque.core import study
-from veritorque.core.document.reading import identified_model, identified_robot
-from veritorque.core.document.reference import reference_from_document
+from veritorque.core.document.model.reading import identified_model, identified_robot
+from veritorque.core.document.model.reference import reference_from_document
 from veritorque.core.errors import OptionError, RobotError
 from veritorque.core.robot.frames import rotation_x, rotation_y
 from veritorque.core.robot.model import RobotModel

@@ -40,7 +40,7 @@ def found(cause: str):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("cause", CASES)
-def test_the_cured_robot_moves_better_beyond_doubt_and_worse_nowhere(cause):
+def test_the_corrected_robot_moves_significantly_better_and_worse_nowhere(cause):
     moved = found(cause)["simulation"]
     assert cause in {one["cause"] for one in found(cause)["findings"]}
     assert max(moved["improvement_total_percent"]) > BETTER[cause]

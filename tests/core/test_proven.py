@@ -31,7 +31,7 @@ def studied(monkeypatch: pytest.MonkeyPatch, scene, progress=None) -> Extension:
     return diagnose_in_full(IdentifyRequest(skew_arm(), logs, {"bootstrap": {"draws": 0}}), progress)
 
 
-def test_a_cause_in_doubt_joins_the_model_where_unseen_motion_is_surely_predicted_better(monkeypatch):
+def test_a_cause_in_doubt_joins_the_model_where_held_out_motion_is_better_predicted(monkeypatch):
     found = studied(monkeypatch, HIDDEN)
     (one,) = found.diagnosis.findings
     shown = one.evidence[-1]
@@ -57,7 +57,7 @@ def test_what_proved_itself_is_not_identified_once_more(monkeypatch):
     assert found.after.estimate is fits[-1].estimate
 
 
-def test_proving_is_told_of_between_the_search_and_the_cure(monkeypatch):
+def test_verifying_is_reported_between_the_search_and_the_correction(monkeypatch):
     told = []
     studied(monkeypatch, HIDDEN, lambda stage, done: told.append((stage, done)))
     stages = [stage for stage, _ in told]

@@ -237,13 +237,13 @@ def test_rokae_is_explained_as_well_as_by_a_plain_fit_or_better():
 
 
 @pytest.mark.parametrize("robot", [_franka, _rokae])
-def test_the_price_of_existence_is_stated_where_it_is_high(robot):
+def test_the_cost_of_the_consistency_constraint_is_stated_where_it_is_high(robot):
     document = robot("sdp")
     assert document["solver"]["objective"] > 1.1 * document["solver"]["objective_ols"]
     assert document["feasibility"]["feasible"]
     assert not document["feasibility"]["ols_feasible"]
 
 
-def test_a_feasible_franka_predicts_the_torque_of_the_unseen_half_as_well_as_a_robot_that_cannot_exist():
+def test_a_feasible_franka_predicts_the_torque_of_the_held_out_half_as_well_as_an_inconsistent_robot():
     feasible, free = (_franka(estimator)["validation_total_percent"] for estimator in ("sdp", "wls"))
     assert feasible <= free + 0.1

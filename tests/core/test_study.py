@@ -1,4 +1,4 @@
-"""Hold the whole story together: one request, one document, every failure said by name."""
+"""Test the whole computation: one request, one document, every failure said by name."""
 
 import json
 from collections.abc import Callable, Iterator
@@ -169,7 +169,7 @@ REFUSED: dict[str, tuple[Callable[[], IdentifyRequest], type[VeritorqueError], s
     "a hold-out in a stretch that is too short": (
         lambda: _request(_interrupted(990, 1020), validation={"blocks": 200, "fraction": 0.005}),
         OptionError,
-        "no kept instant lies in the held-out blocks",
+        "no sample used lies in the held-out blocks",
     ),
     "a decimation that leaves blocks without instants": (
         lambda: _request(filter={"decimation": 20}, validation={"blocks": 200}),
@@ -309,7 +309,7 @@ def test_a_log_given_twice_is_refused_because_it_is_no_more_data(tmp_path):
         identify(_request(log, log))
 
 
-def test_a_reduced_model_is_still_a_robot_that_can_exist():
+def test_a_reduced_model_is_still_physically_consistent():
     document = identify(_request(_log(noise=2.0), essential=True))
     assert document["counts"]["essential"] < document["counts"]["base"]
     assert document["feasibility"]["feasible"]

@@ -14,8 +14,8 @@ from veritorque.core.dynamics import guide as terms
 from veritorque.core.dynamics.model import STANDARD_TERMS
 from veritorque.core.export import guide as formats
 from veritorque.core.export.formats import FORMATS
+from veritorque.core.log.columns.profiles import PROFILES
 from veritorque.core.log.formats.content import FORMS
-from veritorque.core.log.profiles import PROFILES
 
 CONTRACT = json.loads((ROOT / "openapi.json").read_text(encoding="utf-8"))
 GENERATED = {

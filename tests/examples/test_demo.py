@@ -71,7 +71,7 @@ def told(capsys, result, hidden=None):
     return " ".join(capsys.readouterr().out.split())
 
 
-def test_a_diagnosis_tells_what_is_wrong_why_and_what_the_cure_gains(capsys):
+def test_a_diagnosis_tells_what_is_wrong_why_and_what_the_correction_gains(capsys):
     page = told(capsys, diagnosed())
     head = (
         "One cause of simulation error found for bench arm: "

@@ -72,7 +72,7 @@ def test_a_robot_of_ones_own_is_described_without_a_warning(folder, capsys):
     assert len(robot_from_description(described).links) == 3
 
 
-def test_findings_are_read_with_sizes_rivals_and_gain(folder, capsys, monkeypatch, tmp_path_factory):
+def test_findings_are_read_with_sizes_alternatives_and_gain(folder, capsys, monkeypatch, tmp_path_factory):
     """The science of a diagnosis takes its time and is tested with the demonstration."""
     executor = StubExecutor(Finished(json_bytes(diagnosed())))
     executor.release.set()

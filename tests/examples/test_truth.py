@@ -21,7 +21,7 @@ def pseudo_inertia(number):
 
 
 @pytest.mark.parametrize("number", LINKS)
-def test_every_true_link_can_exist(number):
+def test_every_true_link_is_physically_consistent(number):
     assert np.linalg.eigvalsh(pseudo_inertia(number))[0] > 1e-5
 
 

@@ -26,7 +26,7 @@ def test_sound_files_are_accepted(form, tmp_path):
 
 
 @pytest.mark.parametrize("form", FORMS)
-def test_spoilt_files_end_in_a_log_or_an_error_of_ours(form, tmp_path):
+def test_corrupted_files_end_in_a_log_or_an_error_of_ours(form, tmp_path):
     """A reader may die, since it is alone in its process; see test_inspector for what is answered then."""
     tally = run(form, runs=RUNS, seed=1, folder=tmp_path)
     assert tally.runs == RUNS
@@ -38,7 +38,7 @@ def test_spoilt_files_end_in_a_log_or_an_error_of_ours(form, tmp_path):
 
 @settings(max_examples=75)
 @given(form=st.sampled_from(SURVIVING), chance=st.randoms(use_true_random=False))
-def test_a_file_spoilt_by_hypothesis_ends_in_a_log_or_an_error_of_ours(form, chance, tmp_path_factory):
+def test_a_file_corrupted_by_hypothesis_ends_in_a_log_or_an_error_of_ours(form, chance, tmp_path_factory):
     path = tmp_path_factory.getbasetemp() / "upload"
     path.write_bytes(spoilt(form, seeds()[form], chance))
     assert read(path) in {"accepted", "refused", "out of memory"}  # the reader's own bound, which it tells

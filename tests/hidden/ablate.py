@@ -1,7 +1,8 @@
 """Ask which thresholds matter: halve and double each, and find simulated logs that are answered otherwise.
 
 An answer is the verdict and the causes with their joints. A threshold that changes no answer either way on
-many logs decides nothing that these logs show: it may be too far off, or not needed.
+many logs decides nothing that these logs show: it may be too far off, or not needed. Logs that were answered
+wrongly once are few, and close to more thresholds (`--regressions`).
 
 Many thresholds are changed at once, see `tests.hidden.group_test`: a set that changes no answer is settled
 in one pass. Two that cancel are not seen; ask for a few with `--only`, or for each by itself with `--count`.
@@ -92,7 +93,7 @@ def main(arguments: Sequence[str]) -> int:
     """Run the cases as they are and with thresholds changed, and print which answers differ."""
     asked = _arguments(arguments)
     names = [name for name in thresholds() if any(fnmatch(name, only) for only in asked.only)]
-    listed = tuple(_possible(orders(asked.seed, asked.cases) if asked.cases else quick(asked.seed)))
+    listed = tuple(_possible(_orders(asked)))
     context = get_context("forkserver")
     context.set_forkserver_preload(list(LOADED))
     begun = time.monotonic()
@@ -198,7 +199,8 @@ def answers(task: Task) -> Answers:
 
 
 def _answer(order: Order) -> Answer:
-    from veritorque.core.diagnosis.diagnose import DiagnosisProblem, diagnose
+    from veritorque.core.diagnosis.diagnose import diagnose
+    from veritorque.core.diagnosis.problem import DiagnosisProblem
 
     case = drawn(order)
     base = base_model(standard_model(case.believed, None))
@@ -208,6 +210,14 @@ def _answer(order: Order) -> Answer:
     except Exception as error:  # noqa: BLE001 - a failure is an answer, too
         return (f"failed: {error}",)
     return (found.verdict, *sorted(f"{one.cause} {list(one.joints)}" for one in found.findings))
+
+
+def _orders(asked: argparse.Namespace) -> list[Order]:
+    if asked.regressions:
+        from tests.hidden.regressions import QUICK  # with the diagnosis, which no process of a task may load
+
+        return [regression.order for regression in QUICK]
+    return orders(asked.seed, asked.cases) if asked.cases else quick(asked.seed)
 
 
 def _possible(listed: list[Order]) -> Iterator[Order]:
@@ -226,6 +236,9 @@ def _arguments(arguments: Sequence[str]) -> argparse.Namespace:
     )
     parser.add_argument("--seed", type=int, default=1, help="decides every case")
     parser.add_argument("--cases", type=int, help="draw as many of all arms, not short logs of small ones")
+    parser.add_argument(
+        "--regressions", action="store_true", help="take logs that were answered wrongly once instead"
+    )
     parser.add_argument("--count", action="store_true", help="count all changed answers, which takes hours")
     parser.add_argument("--only", nargs="+", default=["*"], metavar="GROUP.FIELD", help="names or patterns")
     return parser.parse_args(arguments)

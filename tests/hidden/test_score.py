@@ -65,7 +65,7 @@ def test_the_right_cause_on_another_joint_is_missed_and_extra():
     assert one.confidences == ((0.95, False),)
 
 
-def test_a_declared_rival_names_a_cause_but_not_exactly():
+def test_a_declared_alternative_names_a_cause_but_not_exactly():
     found = finding("friction_presliding", [2], rivals=["friction_stribeck"])
     one = scored(diagnosis(found), STRIBECK)
     assert (one.answers[0].named, one.answers[0].exact) == (True, False)
@@ -73,7 +73,7 @@ def test_a_declared_rival_names_a_cause_but_not_exactly():
     assert one.extra == ()
 
 
-def test_a_rival_names_a_cause_where_it_acts_and_not_where_the_finding_does():
+def test_an_alternative_names_a_cause_where_it_acts_and_not_where_the_finding_does():
     found = finding("friction_stribeck", [1], rivals=["friction_stribeck"], elsewhere=[2])
     one = scored(diagnosis(found), STRIBECK)
     assert (one.answers[0].named, one.answers[0].exact, one.answers[0].sizes) == (True, False, ())

@@ -54,7 +54,7 @@ def test_without_friction_the_plant_accelerates_as_pinocchio_says(name):
 
 
 @pytest.mark.parametrize("name", ROBOTS)
-def test_every_drawn_body_can_exist(name):
+def test_every_drawn_body_is_physically_consistent(name):
     arm = draw_arm(name, np.random.default_rng(8))
     assert min(np.linalg.eigvalsh(pseudo_inertia(body))[0] for body in arm.bodies) > 0.0
     assert min(arm.rotor_inertia.min(), arm.viscous.min(), arm.coulomb.min()) > 0.0

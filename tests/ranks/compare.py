@@ -6,7 +6,7 @@ from tests.ranks.drawn import STYLES, drawn_robot
 from tests.ranks.engine import Rank, rank_of
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.reduction.base import base_model
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 
 
 @dataclass(frozen=True)

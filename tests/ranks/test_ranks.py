@@ -10,7 +10,7 @@ from veritorque.core.dynamics.model import standard_model
 from veritorque.core.reduction.base import base_model
 from veritorque.core.robot.frames import rpy_of_rotation
 from veritorque.core.robot.modified_dh import ModifiedDHRow
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 
 
 @pytest.mark.parametrize("seed", range(2 * len(STYLES)))

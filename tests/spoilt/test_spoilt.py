@@ -14,7 +14,7 @@ TORQUE = np.column_stack([5.0 * np.cos(3.0 * TIME), np.sin(2.0 * TIME + 0.3)])
 
 
 @pytest.mark.parametrize("way", sorted(WAYS))
-def test_a_spoilt_log_is_read_or_refused_in_words(way, tmp_path):
+def test_a_corrupted_log_is_read_or_refused_in_words(way, tmp_path):
     noise = 1e-3 * np.random.default_rng(3).normal(size=TORQUE.shape)
     table = WAYS[way](Table(TIME.copy(), SWING.copy(), TORQUE + noise), np.random.default_rng(7))
     path = tmp_path / "spoilt.csv"

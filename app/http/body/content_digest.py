@@ -1,6 +1,6 @@
 """Check that a body arrives as it was sent, where its sender announces a digest.
 
-The digest covers the body as it travels, a form with its boundaries included; an upload that was spoilt on
+The digest covers the body as it travels, a form with its boundaries included; an upload that was corrupted on
 the way is refused before anything is made of it. Source: RFC 9530, Digest Fields (2024), sections 2 and 5.
 """
 
@@ -46,9 +46,7 @@ class ContentDigest:
             for seen in hashes.values():
                 seen.update(message.get("body", b""))
             if message["type"] == "http.request" and not message.get("more_body", False):
-                for name, seen in hashes.items():
-                    if not hmac.compare_digest(seen.digest(), announced[name]):
-                        raise _mismatch(name, announced[name], seen.digest())
+                _compare(announced, hashes)
             return message
 
         await self._app(scope, hashed if announced else receive, send)
@@ -85,6 +83,12 @@ def parse_digests(text: str) -> dict[str, bytes]:
 def _stated_digests(scope: Scope) -> dict[str, bytes]:
     given = [value.decode("latin-1") for name, value in scope["headers"] if name == HEADER.lower().encode()]
     return parse_digests(", ".join(given)) if given else {}
+
+
+def _compare(announced: dict[str, bytes], hashes: dict[str, "hashlib._Hash"]) -> None:
+    for name, seen in hashes.items():
+        if not hmac.compare_digest(seen.digest(), announced[name]):
+            raise _mismatch(name, announced[name], seen.digest())
 
 
 def _unreadable(part: str) -> Problem:

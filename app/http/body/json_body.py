@@ -1,6 +1,6 @@
 """Read JSON from outside strictly, and check it against the models of the contract.
 
-RFC 8259 leaves room for NaN, a name twice and any depth; here all of them are refused at the door, with the
+RFC 8259 leaves room for NaN, a name twice and any depth; here all of them are refused on arrival, with the
 reason.
 """
 

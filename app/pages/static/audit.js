@@ -1,4 +1,4 @@
-// Show an audit of a description: which bodies cannot be, and which entries logs contradict.
+// Show an audit of a description: which bodies are impossible, and which entries logs contradict.
 import { correctionActions } from "./again.js";
 import { post } from "./api.js";
 import { element, fill } from "./dom.js";

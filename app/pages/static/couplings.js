@@ -6,7 +6,7 @@ import { plural } from "./words.js";
 /**
  * Make the form.
  * @param {Object[]} couplings as a description holds them
- * @param {function(): void} changed hears of every change
+ * @param {function(): void} changed called at every change
  * @returns {{node: HTMLElement, read: function(number): {couplings: Object[], fault: (string|null)}, use: function(Object[]): void}}
  *   `read` takes the number of joints
  */

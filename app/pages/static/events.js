@@ -6,8 +6,8 @@ const COME_BACK_MS = 2000;
 /**
  * Tell every change of a job until it has ended.
  * @param {string} id
- * @param {function(Object): void} told hears the job, the first time at once
- * @param {Object} [options] `silent()` hears whenever the service does not answer, before it is asked again; signal
+ * @param {function(Object): void} told called with the job, the first time at once
+ * @param {Object} [options] `silent()` called whenever the service does not answer, before it is asked again; signal
  * @returns {Promise<Object>} the job at its end
  * @throws {ProblemError} if there is no such job
  */

@@ -1,4 +1,4 @@
-// Keep the caller's key for as long as this tab lives, and ask for it where the service wants one.
+// Keep the caller's key for as long as this tab lives, and ask for it where the service requires one.
 import { element } from "./dom.js";
 
 const NAME = "veritorque-key";

@@ -41,7 +41,7 @@ export function place(description, coordinates) {
   return places;
 }
 
-/** Limits of a joint for drawing; half a turn or a metre to either side where none are known. */
+/** Limits of a joint for drawing; half a turn or a metre in either direction where none are known. */
 export function rangeOf(joint) {
   return joint.limits?.position ?? (joint.type === "prismatic" ? [-1, 1] : [-Math.PI, Math.PI]);
 }

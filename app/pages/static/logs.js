@@ -15,7 +15,7 @@ const LONGEST_NAME = 200; // that the service keeps
 /**
  * Offer the ways to logs.
  * @param {HTMLElement} container
- * @param {Object} options `wanted`: ids of logs to begin with; `chosen(logs)` hears of every change
+ * @param {Object} options `wanted`: ids of logs to begin with; `chosen(logs)` called at every change
  * @returns {{use: function(Object): void}} to be told which robot they are of
  */
 export function chooseLogs(container, { wanted = [], chosen }) {

@@ -33,7 +33,7 @@ const cursors = new Map();
  * @param {{from: number, to: number, label: string, quiet?: boolean}[]} [plot.marks] stretches of x to shade
  * @param {string} [plot.note] one more sentence for those who hear the page
  * @param {[number, number]} [plot.extent] the whole range of x, where the values are only a part of it
- * @param {function(number, number): void} [plot.zoomed] hears which range of x is shown, at every change
+ * @param {function(number, number): void} [plot.zoomed] called with the range of x that is shown, at every change
  * @returns {{replace: function(number[], {values: (number|null)[], at?: number[]}[]): void, destroy: function(): void}} `replace`
  *   gives the traces other values and leaves the range that is shown
  */

@@ -3,9 +3,9 @@ import { get, post } from "./api.js";
 import { field, menu, readNumber } from "./controls.js";
 import { element, fill } from "./dom.js";
 import { showError } from "./problem.js";
-import { ago, plural } from "./words.js";
+import { ANALYSES, ago, plural } from "./words.js";
 
-const { kinds: KINDS, estimators: ESTIMATORS } = JSON.parse(document.querySelector("meta[name=analyses]").content);
+const { kinds: KINDS, estimators: ESTIMATORS } = ANALYSES;
 
 /**
  * Ask for the kind of analysis and its options.

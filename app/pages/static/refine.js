@@ -2,7 +2,7 @@
 const WAIT_MS = 250;
 
 /**
- * Give what hears which range is shown, and shows finer values of it. Where every sample is there already, nothing is asked.
+ * Give what is called with the range that is shown, and shows finer values of it. Where every sample is there already, nothing is asked.
  * @template T
  * @param {T & {whole: boolean, extent: [number, number]}} whole what is shown of the whole range
  * @param {function([number, number]): Promise<T|null>} read gives finer values of a range; null where there are none

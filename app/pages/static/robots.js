@@ -14,7 +14,7 @@ const WAYS = { list: "From the list", table: "DH table", urdf: "URDF" };
 /**
  * Offer the ways to a robot.
  * @param {HTMLElement} container
- * @param {Object} options `wanted`: the id of a robot to begin with; `chosen(robot)` hears of every choice, null for none
+ * @param {Object} options `wanted`: the id of a robot to begin with; `chosen(robot)` called at every choice, null for none
  */
 export function chooseRobot(container, { wanted, chosen }) {
   const form = element("div", { class: "stack" });

@@ -73,7 +73,7 @@ export function faultOf(rows) {
   return null;
 }
 
-/** Write a row as the API wants a joint. */
+/** Write a row as the API takes a joint. */
 export function jointOf(row, index) {
   const position = row.low !== undefined && row.high !== undefined ? [row.low, row.high] : null;
   return {

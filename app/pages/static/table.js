@@ -9,7 +9,7 @@ import { COLUMNS, EMPTY, factorOf, faultOf, jointOf, pointerOf, rowsOf, unitOf, 
 /**
  * Show the form.
  * @param {HTMLElement} container
- * @param {Object} options `known`: robots to start from; `changed(description)` hears of every change, of null where it says no robot;
+ * @param {Object} options `known`: robots to start from; `changed(description)` called at every change, of null where it says no robot;
  *   `finished(description, refused)` is asked to keep it, and calls `refused(pointer)` if the service refuses it
  */
 export function robotTable(container, { known, changed, finished }) {

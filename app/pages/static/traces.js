@@ -54,7 +54,7 @@ export function tracesOf(job, document) {
     return { at: seen.time.values.map((stamp) => stamp - starts.get(log)), values: own.values, whole: seen.rows_per_stretch === 1 };
   }
 
-  // A range in s since the log's first instant, on the log's own clock as a query wants it.
+  // A range in s since the log's first instant, on the log's own clock as a query takes it.
   function stretch(log, range) {
     return range === null ? {} : { from: starts.get(log) + range[0], to: starts.get(log) + range[1] };
   }

@@ -98,5 +98,8 @@ export function unitOf(trace, type) {
   return type === "prismatic" ? prismatic : revolute;
 }
 
+/** The kinds of job and the estimators, as the service lists them with every page. */
+export const ANALYSES = JSON.parse(document.querySelector("meta[name=analyses]").content);
+
 /** What the studies of a kind are called. */
-export const KINDS = { identify: "Identification", diagnose: "Diagnosis", check: "Set-up check", audit: "Audit of the description" };
+export const KINDS = Object.fromEntries(ANALYSES.kinds.map(({ name, title }) => [name, title]));

@@ -53,7 +53,7 @@ def require_whole(given: str, part: FromUrdf) -> None:
     asked = {name: value for name, value in vars(part).items() if value is not None}
     if asked:
         raise OptionError(
-            f"{given} is no URDF, and says itself which links it has and where gravity points",
+            f"{given} is no URDF, and states its links and gravity itself",
             evidence={"given": asked},
             remedy="leave these options out, or change the description",
         )

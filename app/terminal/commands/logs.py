@@ -66,12 +66,17 @@ def check(
     if json:
         echo(encoder.dumps(documents if len(documents) > 1 else documents[0]))
     for path, seen in checks:
-        for line in () if json else lines_of(path, seen):
-            echo(line)
+        if not json:
+            echo("\n".join(lines_of(path, seen)))
         _print_suggestion(path, seen)
+    _end(checks, fail_on_defects=fail_on_defects)
+
+
+def _end(checks: list[tuple[Path, "LogCheck"]], *, fail_on_defects: bool) -> None:
+    """End with the exit code that the checks call for."""
     if any(seen.refusal is not None for _, seen in checks):
         raise typer.Exit(Exit.INPUT)
-    if fail_on_defects and any(document["defects"] for document in documents):
+    if fail_on_defects and any(seen.log is not None and seen.log.defects for _, seen in checks):
         raise typer.Exit(Exit.FOUND)
 
 

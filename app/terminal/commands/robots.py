@@ -183,23 +183,28 @@ def _print_joints(rows: list[dict[str, Any]]) -> None:
     from ..output.columns import Column, print_table
 
     shown = [name for name in GEOMETRY if any(row.get(name) for row in rows)]
-    limits = [(row.get("limits") or {}).get("position") for row in rows]
-    kinds = [
-        str(row.get("type", "")) + (f", mimics {row['mimics']}" if row.get("mimics") else "") for row in rows
-    ]
     columns = [
-        Column("joint", [str(number) for number in range(1, len(rows) + 1)]),
-        Column("name", [str(row.get("name", "")) for row in rows], is_text=True, spare=3),
-        Column("type", kinds, is_text=True, spare=1),
-        Column("on", [str(row.get("antecedent", "")) for row in rows], spare=2),
+        Column("joint", list(map(str, range(1, len(rows) + 1)))),
+        Column("name", _texts(rows, "name"), is_text=True, spare=3),
+        Column("type", list(map(_type_of, rows)), is_text=True, spare=1),
+        Column("on", _texts(rows, "antecedent"), spare=2),
         *(Column(name, [f"{row.get(name) or 0.0:.4g}" for row in rows]) for name in shown),
-        Column(
-            "position",
-            ["" if limit is None else f"{limit[0]:.4g} .. {limit[1]:.4g}" for limit in limits],
-            spare=4,
-        ),
+        Column("position", list(map(_limits_of, rows)), spare=4),
     ]
     print_table(result_console(), columns)
+
+
+def _texts(rows: list[dict[str, Any]], name: str) -> list[str]:
+    return [str(row.get(name, "")) for row in rows]
+
+
+def _type_of(row: dict[str, Any]) -> str:
+    return str(row.get("type", "")) + (f", mimics {row['mimics']}" if row.get("mimics") else "")
+
+
+def _limits_of(row: dict[str, Any]) -> str:
+    limit = (row.get("limits") or {}).get("position")
+    return "" if limit is None else f"{limit[0]:.4g} .. {limit[1]:.4g}"
 
 
 def _print_warnings(seen: dict[str, Any]) -> None:

@@ -1,4 +1,4 @@
-"""Print an audit: bodies that cannot be, entries that logs contradict, and combinations that disagree."""
+"""Print an audit: impossible bodies, entries that logs contradict, and combinations that disagree."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -27,9 +27,13 @@ def print_audit(console: Console, document: Document) -> None:
     for remark in document["remarks"]:
         console.print(f"[red]{escape(remark['statement'])}[/]. Remedy: {escape(remark['remedy'])}.")
     if document["bodies_described"] and not document["remarks"]:
-        console.print("[green]By itself the description has no body that cannot be.[/]")
+        console.print("[green]The description by itself has no impossible body.[/]")
     for line in contradiction_lines(document):
         console.print(escape(line))
+    _print_contradicted(console, document)
+
+
+def _print_contradicted(console: Console, document: Document) -> None:
     wrong = [row for row in document["combinations"] if row["contradicted"]]
     if wrong:
         print_table(console, _columns(wrong), title="Combinations that the logs contradict")
@@ -71,7 +75,7 @@ def save_corrected(document: Document, robot: str, part: FromUrdf, path: Path) -
     Raises
     ------
     OptionError
-        If no log could judge the description, or a corrected body cannot be.
+        If no log could judge the description, or a corrected body is impossible.
     """
     from ....core.export.described import urdf_of_description, urdf_with_bodies
 

@@ -5,9 +5,10 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from ....core.log.binding import Binding
 from ....core.log.channels import CHANNELS
 from ....core.log.check import LogCheck, Reach
+from ....core.log.columns.binding import Binding
+from ....core.log.defects.stretch import count_text
 from ...json_text import plain
 
 SHOWN = 6
@@ -20,7 +21,7 @@ def lines_of(path: Path, seen: LogCheck) -> Iterator[str]:
     if log is not None:
         yield (
             f"{log.samples} samples, {log.duration:.4g} s at {log.rate_hz:.4g} Hz, {log.joints} joints, "
-            f"{len(log.segments)} {'segment' if len(log.segments) == 1 else 'segments'}"
+            f"{count_text(len(log.segments), 'segment')}"
         )
     for channel in seen.recognised:
         yield f"  {channel.name:<14}{_units(channel):<8}{_shorten(channel.columns)}"
@@ -30,7 +31,7 @@ def lines_of(path: Path, seen: LogCheck) -> Iterator[str]:
     if log.ignored_columns:
         yield f"  {'ignored':<22}{_shorten(log.ignored_columns)}"
     yield from _reach_lines(seen.reach)
-    yield f"{len(log.defects)} {'defect' if len(log.defects) == 1 else 'defects'}{':' if log.defects else ''}"
+    yield f"{count_text(len(log.defects), 'defect')}{':' if log.defects else ''}"
     for defect in log.defects:
         joint = "" if defect.joint is None else f" {defect.joint}"
         yield f"  {defect.kind:<18}{defect.channel + joint:<14}{defect.statement}"

@@ -12,13 +12,13 @@ from ....core.report.page.conflicts import disagreements, other_warnings
 
 def print_warnings(console: Console, result: Mapping[str, Any]) -> None:
     """Print conflicts and warnings; nothing where there are none."""
-    for one in disagreements(result):
-        for heading, sentences in one.conflicts:
+    for conflict in disagreements(result):
+        for heading, sentences in conflict.conflicts:
             console.print(f"[bold red]{escape(heading)}[/]")
             for sentence in sentences:
                 console.print(Padding(escape(sentence), (0, 0, 0, 3), expand=False))
-        console.print(Padding(f"{escape(one.applied)} Correction to paste:", (0, 0, 0, 3), expand=False))
-        console.print(one.correction, markup=False, highlight=False, soft_wrap=True)
+        console.print(Padding(f"{escape(conflict.applied)} Correction to paste:", (0, 0, 0, 3), expand=False))
+        console.print(conflict.correction, markup=False, highlight=False, soft_wrap=True)
         console.print()
     for warning in other_warnings(result):
         console.print(f"[yellow]Warning:[/] {escape(warning)}")

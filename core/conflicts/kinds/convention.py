@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ...robot.model import Link
+from ...robot.model import Link, RobotModel
 from ...robot.modified_dh import ModifiedDHRow
 from ..conflict import Conflict, Hypothesis
 from ..setup import Setup
@@ -18,10 +18,8 @@ class Convention(Conflict):
 
     def hypotheses(self, setup: Setup, _trials: Trials) -> Iterator[Hypothesis]:
         """Read a plain chain's table in the other usual ways."""
-        rows = [link.row for link in setup.robot.links]
-        chain = all(link.antecedent == place for place, link in enumerate(setup.robot.links))
-        known = [row for row in rows if row is not None]
-        if not chain or len(known) < len(rows):
+        known = _rows_of_a_chain(setup.robot)
+        if not known:
             return
         readings = {
             "written in standard, not in modified Denavit-Hartenberg parameters": _standard(known),
@@ -38,6 +36,13 @@ class Convention(Conflict):
                     f"the table is {words}",
                     "use the table of the corrected description",
                 )
+
+
+def _rows_of_a_chain(robot: RobotModel) -> list[ModifiedDHRow]:
+    """Give the table of a plain chain; nothing of a tree, or where a link has no row."""
+    chain = all(link.antecedent == place for place, link in enumerate(robot.links))
+    known = [link.row for link in robot.links if link.row is not None]
+    return known if chain and len(known) == len(robot.links) else []
 
 
 def _standard(rows: list[ModifiedDHRow]) -> list[ModifiedDHRow]:

@@ -37,7 +37,7 @@ def factor_hypothesis(setup: Setup, joint: int, factor: float) -> Hypothesis:
         "torque",
         with_factor(setup, joint, factor),
         f"the torque of joint {joint + 1} is about {times:.3g} times {said} than the other torques "
-        "and the motion ask for, as on the other side of a gear",
+        "and the motion require, as on the motor's side of a gear",
         f"read the torque of joint {joint + 1} with the scale {factor:.4g}, or the exact ratio",
     )
 

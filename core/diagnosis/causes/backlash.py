@@ -23,7 +23,7 @@ class Backlash(OwnJointCause):
     units = (("half_width", "rad"), ("motor_inertia", "kg m2"))
     experiment = "slow motion through postures where the load on this joint changes its sign"
     coordinate = "load"
-    traits = SearchTraits(linearisation_error=LINEARISATION.backlash)
+    traits = SearchTraits(linearisation_error=LINEARISATION.transmission)
     revolute_only = True
 
     def grid(self, at: Setting) -> Sequence[Scalars]:

@@ -22,7 +22,7 @@ class Exclusion:
 GENERAL: tuple[str, ...] = (
     "its torque, but for friction and offset, exceeds its joint's: another column cancels what is left open",
     "none of its numbers exceeds its own standard deviation",
-    "its size is open beyond the largest there can be, as a vertical first joint's zero: no torque has it",
+    "the log leaves its size open beyond the largest admissible one, as of a vertical first joint's zero",
     "its sign or size is one of those below",
 )
 """Where no cause is named."""
@@ -97,8 +97,8 @@ EXCLUSIONS: tuple[Exclusion, ...] = (
     ),
     Exclusion(
         "encoder_eccentricity",
-        f"the amplitude exceeds {ADMISSIBLE.encoder_eccentricity:g} rad, nor surely where it exceeds "
-        f"{ADMISSIBLE.eccentricity_represented:g} rad",
+        f"the amplitude exceeds {ADMISSIBLE.encoder_eccentricity:g} rad; above "
+        f"{ADMISSIBLE.eccentricity_represented:g} rad the confidence is limited",
         "its first order errs by half of it, and a disc so far off its axis could not be read",
     ),
     Exclusion(

@@ -29,7 +29,7 @@ class FrictionChange(OwnJointCause):
     def statement(self, solved: FittedCause) -> str:
         """State the significant changes, or the most significant one."""
         found = self.quantities(solved)
-        clear = [change for change in found if change.clearness > ADMISSIBLE.stated_deviations] or [
+        clear = [change for change in found if change.clearness > ADMISSIBLE.significant] or [
             max(found, key=attrgetter("clearness"))
         ]
         changes = " and ".join(f"{WORDS[change.name]} by {change.text}" for change in clear)

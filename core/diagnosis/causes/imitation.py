@@ -192,7 +192,7 @@ IMITATIONS: tuple[Imitation, ...] = (
     Imitation(
         "kinematic_error",
         "gravity_misalignment",
-        "an angle of the first links turns the whole arm, as a tilted base does",
+        "an angle of the first links rotates the whole arm, as a tilted base does",
         "measure the base with a level",
         mutual=False,
     ),

@@ -57,7 +57,7 @@ class JointCoupling(OwnJointCause, CorrectsRobot):
         """Admit inertia and friction: none significantly negative, one significantly positive."""
         size = solved.values / np.sqrt(np.maximum(np.diag(solved.covariance), 1e-300))
         return super().admissible(solved) and bool(
-            size.min() > -ADMISSIBLE.coupling_deviations and size.max() > ADMISSIBLE.coupling_deviations
+            size.min() > -ADMISSIBLE.significant and size.max() > ADMISSIBLE.significant
         )
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:

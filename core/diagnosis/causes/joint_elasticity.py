@@ -26,7 +26,7 @@ class JointElasticity(OwnJointCause):
     units = (("stiffness", "N m/rad"), ("damping", "N m s/rad"), ("motor_inertia", "kg m2"))
     experiment = "motion with large accelerations, up to a third of the expected resonance"
     coordinate = "load_jerk"
-    traits = SearchTraits(linearisation_error=LINEARISATION.elasticity, like_position_noise=True)
+    traits = SearchTraits(linearisation_error=LINEARISATION.transmission, like_position_noise=True)
 
     def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan resonance, from a few times the motion's bandwidth to beyond the data set's, and damping."""

@@ -45,7 +45,7 @@ class LinkParameters(OwnJointCause):
     def statement(self, solved: FittedCause) -> str:
         """State the parameters that differ most, in units of their standard deviation."""
         first = sorted(self.quantities(solved), key=attrgetter("clearness"), reverse=True)[:LISTED]
-        clear = [change for change in first if change.clearness > ADMISSIBLE.stated_deviations] or first[:1]
+        clear = [change for change in first if change.clearness > ADMISSIBLE.significant] or first[:1]
         changes = ", ".join(f"{change.name.removeprefix('delta_')} by {change.text}" for change in clear)
         return f"Link of joint {solved.site[0]} differs from the reference: {changes}"
 

@@ -1,4 +1,4 @@
-"""Candidate cause: timestamp jitter, a scatter of the sampling instants about their stamps.
+"""Candidate cause: timestamp jitter, random deviations of the sampling instants from their stamps.
 
 Above the motion's bandwidth such positions carry their velocity times a time error that all joints share.
 Products of two joints' high-pass remainders are then on average proportional to products of their velocities;

@@ -76,7 +76,7 @@ def _comparison(state: SearchState, index: int, unnamed: tuple[Candidate, ...]) 
 
 
 def _is_dropped(state: SearchState, own: Comparison, *, alone: bool) -> bool:
-    """Tell whether a member is inadmissible, of a size that makes no sense, or a surrogate."""
+    """Tell whether a member is inadmissible, of an implausible size, or a surrogate."""
     return (
         not state.chosen.admits(own.index)
         or not has_plausible_size(state.fitter, state.chosen, own.index)

@@ -94,7 +94,8 @@ def _stands(dataset: Dataset) -> Iterator[Indices]:
     rows = np.flatnonzero((np.abs(dataset.state.velocity) <= slow).all(axis=1))
     for run in np.split(rows, np.flatnonzero(~dataset.follows(rows))):
         inner = run[AT_REST.settling_rows : len(run) - AT_REST.settling_rows]
-        if len(inner) >= AT_REST.least_rows:
+        ends = 2 * AT_REST.edge_rows
+        if len(inner) >= 2 * ends:
             yield inner
 
 

@@ -11,7 +11,6 @@ from ...arrays import Samples
 from ..causes.protocol import Setting
 from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Hypothesis
-from ..thresholds.checks import SIZE
 
 
 def has_plausible_size(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> bool:
@@ -36,7 +35,7 @@ def _within_torque(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> 
         usable = dataset.usable[:, joint]
         effect, torque = own[usable] @ values, dataset.torque[usable, joint]
         effect -= _stood_for(dataset.state.velocity[usable, joint], effect)
-        if effect @ effect > SIZE.torque_share**2 * (torque @ torque):
+        if effect @ effect > torque @ torque:
             return False
     return True
 
@@ -50,4 +49,4 @@ def _stood_for(speed: Samples, effect: Samples) -> Samples:
 def _is_determined(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> bool:
     cause, solved = chosen.members[index].cause, chosen.in_joint_units(index, fitter.dataset.robot)
     quantities = cause.quantities(solved)
-    return not quantities or bool(np.max([one.clearness for one in quantities]) > SIZE.clearness)
+    return not quantities or bool(np.max([quantity.clearness for quantity in quantities]) > 1.0)

@@ -36,7 +36,7 @@ class UnnamedPatternCause(OwnJointCause):
     """Offer the unnamed patterns of one joint."""
 
     id = "unlisted"
-    title = "Something follows a pattern that no listed cause has"
+    title = "A pattern that no listed cause has"
     units = ()
     coordinate = "time"
     traits = SearchTraits(discrete=("pattern", "number_0", "number_1", "number_2"))

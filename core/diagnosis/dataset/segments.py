@@ -56,7 +56,7 @@ def later_torques(motion: Motion, share: float, seconds: float) -> list[JointSer
 
 
 def _spans(motion: Motion, share: float) -> Iterator[tuple[Segment, tuple[int, int], int]]:
-    """Give each stretch that is kept: its part of the log, its kept instants there, and those before."""
+    """Give each stretch that is kept: its part of the log, its decimated samples there, and those before."""
     done = 0
     for segment in motion.segments:
         step = segment.rate_hz / motion.recipe.decimation
@@ -110,17 +110,17 @@ def thinning(rate_hz: float, cutoff_hz: float) -> int:
 
 
 def _settled(at: Indices, samples: int, period: float) -> np.ndarray:
-    """Tell which kept instants are so far from the ends of their stretch that what remembers has settled."""
+    """Tell which decimated samples are so far from the ends of their stretch that filters have settled."""
     reach = int(np.ceil(ROWS.settling_periods * period))
     return np.asarray((at >= reach) & (at < samples - reach))
 
 
 def _clear(turns: np.ndarray, at: Indices, period: float) -> JointMask:
-    """Tell which kept instants are further from every reversal than the filter's main lobe.
+    """Tell which decimated samples are further from every reversal than the filter's main lobe.
 
-    `period` is that of the cut-off, in samples.
+    The lobe is as long as a period of the cut-off, in samples.
     """
-    reach = int(np.ceil(ROWS.reversal_periods * period))
+    reach = int(np.ceil(period))
     counts = np.cumsum(np.pad(turns, ((1, 0), (0, 0))), axis=0)
     low, high = np.maximum(at - reach, 0), np.minimum(at + reach + 1, len(turns))
     return np.asarray(counts[high] == counts[low])

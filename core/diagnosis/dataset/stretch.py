@@ -18,11 +18,11 @@ class Stretch:
     parallel: ParallelFilter
     first: int
     rows: slice
-    """Where the first kept instant lies in `state`, and which rows of the data set the kept instants are."""
+    """Where the first decimated sample lies in `state`, and the rows of all of them in the data set."""
 
     @property
     def kept(self) -> int:
-        """Count the kept instants."""
+        """Count the decimated samples."""
         return int(self.rows.stop - self.rows.start)
 
     def filtered(self, series: Series) -> KeptSeries:
@@ -32,7 +32,7 @@ class Stretch:
     def filtered_part(self, series: Series, begin: int) -> tuple[int, KeptSeries]:
         """Filter series that begin at a sample of this stretch and are zero before and beyond.
 
-        Give the first kept instant that sees them, and what all those that do keep.
+        Give the first decimated sample that sees them, and what all those that do keep.
         """
         reach = self.parallel.reach
         low, high = self._kept_from(begin - reach), self._kept_from(begin + series.shape[1] + reach)
@@ -51,7 +51,7 @@ class Stretch:
         return out
 
     def _kept_from(self, sample: int) -> int:
-        """Give the first kept instant that lies at a sample or behind it."""
+        """Give the first decimated sample that lies at a sample or behind it."""
         return min(max(-(-(sample - self.first) // self.parallel.decimation), 0), self.kept)
 
     def _kept_of(self, series: Series, begin: int, low: int, high: int) -> KeptSeries:

@@ -7,7 +7,7 @@ which the model fits best, and the model there, from which the columns are right
 Identification (1999), ch. 7 and 10, on profiles of what is not linear.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cache
 
@@ -18,6 +18,8 @@ from ...arrays import JointSeries
 from ..causes.masking import excludes, masks
 from ..causes.time_delay import TimeDelay
 from ..thresholds.search import ALIGNMENT, SELECTION
+from .fitter import HypothesisFitter
+from .hypothesis import Candidate, Hypothesis
 from .likelihood_ratio import likelihood_ratio
 from .restarts import bic
 from .state import SearchState
@@ -33,12 +35,10 @@ Lost = Callable[[float], float]
 
 def restart_from_alignment(found: SearchState, later: Later) -> SearchState:
     """Give the better of a search and its restart from the exact delay, which members may stand for."""
-    stand_ins = {*masks(TimeDelay.id), *excludes(TimeDelay.id), TimeDelay.id}
     if all(member.cause.id == TimeDelay.id for member in found.chosen.members):
         return found
-    kept = tuple(member for member in found.chosen.members if member.cause.id not in stand_ins)
+    kept = _without_stand_ins(found.chosen.members)
     fitter = found.fitter.linearised_at(found.fitter.fit(kept))
-    without = fitter.fit(kept)
 
     @cache
     def shifted(seconds: float) -> SearchState:
@@ -52,16 +52,32 @@ def restart_from_alignment(found: SearchState, later: Later) -> SearchState:
         return found
     delay = _likeliest(lost)
     there = fitter.linearised_at(shifted(delay).chosen)
-    candidates = there.at.of_kind((TimeDelay.id, ()))
-    if not candidates:
+    start = _start_with_delay(found, there, fitter.fit(kept), delay)
+    if start is None:
         return found
-    start = there.fit((*kept, replace(candidates[0], scalars={"around": delay})))
+    other = continue_search(start, known=found.through)
+    return other if bic(other.chosen) > bic(found.chosen) + SELECTION.undecided else found
+
+
+def _without_stand_ins(members: Sequence[Candidate]) -> tuple[Candidate, ...]:
+    """Leave out the delay, and what may stand for it."""
+    stand_ins = {*masks(TimeDelay.id), *excludes(TimeDelay.id), TimeDelay.id}
+    return tuple(member for member in members if member.cause.id not in stand_ins)
+
+
+def _start_with_delay(
+    found: SearchState, fitter: HypothesisFitter, without: Hypothesis, delay: float
+) -> SearchState | None:
+    """Put the delay beside the members of a hypothesis; None where it is not significant."""
+    candidates = fitter.at.of_kind((TimeDelay.id, ()))
+    if not candidates:
+        return None
+    start = fitter.fit((*without.members, replace(candidates[0], scalars={"around": delay})))
     brings = likelihood_ratio(without, start)
     if not start.admissible or brings < SELECTION.undecided:
-        return found
-    begun = found.at(there, start).recorded("swapped", start.members[-1], brings)
-    other = continue_search(replace(begun, excluded={}), known=found.through)
-    return other if bic(other.chosen) > bic(found.chosen) + SELECTION.undecided else found
+        return None
+    begun = found.at(fitter, start).recorded("swapped", start.members[-1], brings)
+    return replace(begun, excluded={})
 
 
 def _is_promising(lost: Lost) -> bool:

@@ -64,7 +64,7 @@ def _admissible_scans(
     fitter: HypothesisFitter, now: Hypothesis, excluded_kinds: Excluded
 ) -> list[ScoredCandidate]:
     """Give the scored candidates that neither the log, nor a member, nor the search before excludes."""
-    excluded = {name for member in now.members for name in excludes(member.cause.id)}
+    excluded = set().union(*(excludes(member.cause.id) for member in now.members))
     taken = {*now.by_key, *(key for key, brings in excluded_kinds.items() if brings == np.inf)}
     return [
         scored
@@ -110,7 +110,7 @@ def _best_on_holdout(
     ranked = sorted(
         whole, key=lambda trial: (trial.members[-1].cause.traits.transient, -bic_gain(now, trial))
     )
-    deserves = (
+    entering = (
         trial
         for trial in ranked
         if trial.admissible
@@ -119,7 +119,7 @@ def _best_on_holdout(
         and passes_holdout(fitter, now, trial)
         and not is_masked(fitter, trial, len(now.members), now)
     )
-    return next(deserves, None)
+    return next(entering, None)
 
 
 def _passes_entry_test(

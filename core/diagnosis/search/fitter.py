@@ -93,7 +93,7 @@ class HypothesisFitter:
         """Give a fitter of the same rows with another torque, for fits; its candidates stay as they are."""
 
         def replaced(rows: tuple[JointRows, ...]) -> tuple[JointRows, ...]:
-            return tuple(replace(one, torque=torque[one.rows, joint]) for joint, one in enumerate(rows))
+            return tuple(replace(own, torque=torque[own.rows, joint]) for joint, own in enumerate(rows))
 
         rows = FitRows(*map(replaced, (self.rows.fitted, self.rows.held_out, self.rows.everywhere)))
         return replace(self, dataset=replace(self.dataset, torque=torque), rows=rows)
@@ -234,7 +234,7 @@ class HypothesisFitter:
             return found
         return self.fit(members)
 
-    def fit_beneath(self, trial: Hypothesis, index: int) -> Hypothesis:
+    def fit_without(self, trial: Hypothesis, index: int) -> Hypothesis:
         """Fit a hypothesis without one member, at the noise that it has with it.
 
         Scalars are refined on top of this: noise that has absorbed the effect hardly depends on them.

@@ -55,12 +55,12 @@ def _refine_once(state: SearchState) -> SearchState:
 
 def _refine_member(fitter: HypothesisFitter, now: Hypothesis, index: int) -> Hypothesis:
     """Refine one member; where that would be inadmissible, leave it and only give its deviations."""
-    member, beneath = now.members[index], fitter.fit_beneath(now, index)
-    found = fitter.scan(beneath, [*fitter.at.of(member.cause, member.site), member])[0]
-    moved = fitter.fit(_put(now.members, index, refine_scalars(fitter, beneath, found.candidate)), now)
+    member, without = now.members[index], fitter.fit_without(now, index)
+    found = fitter.scan(without, [*fitter.at.of(member.cause, member.site), member])[0]
+    moved = fitter.fit(_put(now.members, index, refine_scalars(fitter, without, found.candidate)), now)
     if moved.admissible or not now.admissible:
         return moved
-    return replace(now, members=_put(now.members, index, with_deviations(fitter, beneath, member)))
+    return replace(now, members=_put(now.members, index, with_deviations(fitter, without, member)))
 
 
 def _put(members: tuple[Candidate, ...], index: int, member: Candidate) -> tuple[Candidate, ...]:

@@ -39,7 +39,9 @@ def drop_what_motion_does_not_show(found: SearchState, at: At) -> SearchState:
 def _weak(state: SearchState, at: At) -> int | None:
     """Give the first member that noise resembles and the motion's band does not show."""
     fitter, chosen = state.fitter, state.chosen
-    doubtful = [place for place, one in enumerate(chosen.members) if one.cause.traits.like_position_noise]
+    doubtful = [
+        place for place, member in enumerate(chosen.members) if member.cause.traits.like_position_noise
+    ]
     if not doubtful or fitter.dataset.width <= BAND.narrowest:
         return None
     try:

@@ -30,15 +30,20 @@ def restart_from_common_cause(found: SearchState) -> SearchState:
 
 def _restarts(found: SearchState) -> Iterator[SearchState]:
     """Give the ends of restarts that do not come to a set of causes which the search came through."""
-    present = [member.cause.id for member in found.chosen.members]
-    for cause in found.fitter.causes:
-        if cause.id in present or len([name for name in present if name in masks(cause.id)]) < 2:
-            continue
-        start = _start_from(found, cause.id, {*masks(cause.id), *excludes(cause.id)})
+    for cause in _common_causes(found):
+        start = _start_from(found, cause, {*masks(cause), *excludes(cause)})
         if start is not None:
             other = continue_search(start, known=found.through)
             if other.chosen is start.chosen or other.keys not in found.through:
                 yield other
+
+
+def _common_causes(found: SearchState) -> Iterator[str]:
+    """Name the absent causes that two members or more may stand for."""
+    present = [member.cause.id for member in found.chosen.members]
+    for cause in found.fitter.causes:
+        if cause.id not in present and len([name for name in present if name in masks(cause.id)]) > 1:
+            yield cause.id
 
 
 def _start_from(found: SearchState, cause: str, replaced: set[str]) -> SearchState | None:

@@ -42,12 +42,11 @@ class Admissible:
     """Squared standard deviations between ten parameters and the nearest body."""
     body_share: float = 0.03
     """The same as a share of the squared effect, for columns that are not exact."""
-    mass_deviations: float = 2.0
-    """Standard deviations by which a body's mass has to differ from zero."""
+    significant: float = 2.0
+    """Standard deviations from which a number of a cause is taken to differ from zero: the mass of a body, an
+    inertia or friction of a coupled motor, a change that is stated among others, a rotor's inertia."""
     coupling_distance: int = 2
     """Joints between which a transmission couples: the next or the one after it."""
-    coupling_deviations: float = 2.0
-    """Standard deviations by which a coupled inertia may be negative, and the largest must be positive."""
     backlash_narrower: float = 8.0
     """Factor by which backlash may be narrower than the width that its crossings were computed for."""
     backlash_wider: float = 5.0
@@ -56,8 +55,6 @@ class Admissible:
     """Difference of a friction exponent from 0 and 1, whose columns the model already has."""
     ripple_harmonic: float = 2.0
     """Cycles per revolution of a torque ripple: gravity has one."""
-    stated_deviations: float = 2.0
-    """Standard deviations from which a change is stated among others of the same cause."""
     least_warm_up: float = 3.0
     """Seconds, time constant of a warm-up: no drive of a robot warms up faster."""
     saturation_error: float = 0.03
@@ -76,10 +73,8 @@ class Linearisation:
 
     usual: float = 0.05
     """Relative, for most causes."""
-    backlash: float = 0.15
-    """Relative, for backlash."""
-    elasticity: float = 0.15
-    """Relative, for joint elasticity."""
+    transmission: float = 0.15
+    """Relative, for backlash and joint elasticity, which move the link against the motor."""
     eccentricity: float = 0.1
     """Relative, for an encoder's eccentricity."""
 

@@ -88,10 +88,6 @@ class Confidence:
 class Size:
     """Decide whether a size makes sense beside the log. All are set by hand."""
 
-    torque_share: float = 1.0
-    """Share of a joint's torque, RMS, that a cause's torque may have."""
-    clearness: float = 1.0
-    """Standard deviations that one of a cause's numbers has to differ from zero by at least."""
     doubtful: float = 0.5
     """Probability that no finding exceeds while a conflict or more than half of a joint's torque is left,
     while an alternative explains more, or while no held-out row shows a gain."""
@@ -110,10 +106,18 @@ class AtRest:
     settling_rows: int = 4
     """Rows at either end of a stand in which the filter settles."""
     edge_rows: int = 2
-    """Rows at either end, at least, whose median is the torque without a push."""
-    least_rows: int = 8
-    """Rows of a stand that can be judged."""
+    """Rows at either end, at least, whose median is the torque without a push; twice as many have to lie
+    between."""
 
 
-SIZE, SEPARATION, AT_REST = Size(), Separation(), AtRest()
+@dataclass(frozen=True)
+class Motion:
+    """Decide whether a correction worsens the simulated motion. Set by hand."""
+
+    clearly_worse_percent: float = 10.0
+    """Growth of a joint's position error, nearer end of its 95 % interval, from which motion is clearly
+    worse."""
+
+
+SIZE, SEPARATION, AT_REST, MOTION = Size(), Separation(), AtRest(), Motion()
 ALTERNATIVES, VERDICT, UNNAMED, CONFIDENCE = Alternatives(), Verdict(), Unnamed(), Confidence()

@@ -55,8 +55,6 @@ class Rows:
     settling_periods: float = 3.0
     """Periods of the band's edge at either end of a stretch that are left out: what remembers (springs,
     filters) starts there from rest, and smoothed columns are continued beyond."""
-    reversal_periods: float = 1.0
-    """Periods of the cut-off around a reversal in which rows are set apart. Source: the filter's ringing."""
     still_share: float = 0.01
     """Share of its RMS speed below which a coupled motor rests."""
     shapes: float = 4.0

@@ -11,8 +11,8 @@ import numpy as np
 
 from ...arrays import JointMarks, JointVector
 from ..channels import EFFORTS
+from ..columns.layout import Layout
 from ..contract import Contract, check_length, check_sequence
-from ..layout import Layout
 from ..model import Defect, LogSource
 from .bandwidth import Bandwidth
 from .clock import Clock, longest_bridge

@@ -65,7 +65,7 @@ class Spikes:
                     largest, span = self._largest[channel][joint], facts.span(channel)[joint]
                     unit = facts.units[channel][joint]
                     statement = (
-                        f"Joint {joint + 1}'s {channel} stands apart from its neighbours in "
+                        f"Joint {joint + 1}'s {channel} differs from its neighbours in "
                         f"{count_text(runs.rows, 'sample')}, by up to {largest:.3g} {unit}; "
                         f"it spans {span:.3g} {unit} otherwise."
                     )

@@ -44,13 +44,16 @@ class Velocity:
         self._integrals += np.sum(prompt * integrals**2, axis=1)
         self._products += np.sum(prompt * ways * integrals, axis=1)
 
+    def _moving(self, facts: Facts) -> list[int]:
+        """List the joints (from 0) that travel, by their positions and by their velocities."""
+        both = self._ways * self._integrals
+        return [joint for joint, size in enumerate(both) if size and facts.travels(joint)]
+
     def defects(self, facts: Facts) -> list[Defect]:
         """State where velocity and positions contradict each other."""
         if "velocity" not in facts.low:
             return []
-        moving = [
-            j for j in range(len(self._ways)) if facts.travels(j) and self._ways[j] * self._integrals[j]
-        ]
+        moving = self._moving(facts)
         if not moving:
             return []
         factors = self._products[moving] / self._ways[moving]

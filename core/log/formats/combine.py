@@ -55,11 +55,14 @@ def combine_stamps(table: Table) -> Table:
     return MemoryTable({STAMP: stamps} | columns, dict(table.units), (*table.notes, note))
 
 
+def _by_stem(pattern: re.Pattern[str], names: Sequence[str]) -> dict[str, str]:
+    return {found[1]: name for name in names if (found := pattern.fullmatch(name))}
+
+
 def _pair(names: Sequence[str]) -> tuple[str, str] | None:
     """Find two columns that differ in the words for seconds and nanoseconds only."""
-    fine = {found[1]: name for name in names if (found := _NANOSECONDS.fullmatch(name))}
-    others = [name for name in names if name not in fine.values()]
-    coarse = {found[1]: name for name in others if (found := _SECONDS.fullmatch(name))}
+    fine = _by_stem(_NANOSECONDS, names)
+    coarse = _by_stem(_SECONDS, [name for name in names if name not in fine.values()])
     return next(((coarse[stem], fine[stem]) for stem in coarse if stem in fine), None)
 
 
@@ -73,6 +76,10 @@ def _numbers(table: Table) -> Iterator[tuple[str, np.ndarray | None]]:
         yield name, np.concatenate(blocks) if blocks else None
 
 
+def _cells(word: str) -> list[str]:
+    return _BETWEEN.split(word.strip(" []()")) if word else []
+
+
 def _lists(name: str, table: Table) -> Matrix | None:
     """Read a column of lists as rows; None where it holds other text.
 
@@ -81,10 +88,10 @@ def _lists(name: str, table: Table) -> Matrix | None:
     words = table.words(name)
     if not words or not _LIST.fullmatch(words[0] or ""):
         return None
-    cells = [_BETWEEN.split(word.strip(" []()")) if word else [] for word in words]
+    cells = list(map(_cells, words))
     width = len(cells[0])
     check_values(width * len(cells))
-    whole = [row for row, values in enumerate(cells) if len(values) == width]
+    whole = np.flatnonzero(np.array(list(map(len, cells))) == width)
     if 2 * len(whole) < sum(map(bool, words)):
         raise LogError(
             f"the lists of the column {name!r} differ in length",

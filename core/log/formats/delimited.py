@@ -5,7 +5,7 @@ is itself the last comment line, as numpy.savetxt writes it, is accepted, and a 
 """
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -158,18 +158,13 @@ def open_delimited(path: Path) -> DelimitedTable:
     check_columns([f"column_{index}" for index in range(found.width)])
     names = _names(found)
     check_columns(names)
-    if len(names) == 1 and _is_spaced(lines):
-        raise LogError(
-            "the columns are separated by blanks, and their number differs from that of the names",
-            evidence={"header": found.cells[0][:120]},
-            remedy="write names without blanks, or separate the columns by commas, semicolons or tabs",
-        )
+    if len(names) == 1:
+        _refuse_blanks(found, lines)
     row = found.first_row
     repeated = check_text(path, lines[found.header_at] if found.cells else "", encoding)
     repeated -= found.header_at > 0
     cells = dict(zip(names, split_cells(row, found.delimiter), strict=False))
     stamps = tuple(name for name, cell in cells.items() if STAMP.fullmatch(cell))
-    texts = (name for name, cell in cells.items() if cell and name not in stamps and not is_number(cell))
     cut = cut_line(path, found)
     return DelimitedTable(
         path=path,
@@ -178,20 +173,38 @@ def open_delimited(path: Path) -> DelimitedTable:
         decimal=_decimal_sign(lines[found.skip :], found.delimiter),
         skip=found.skip,
         stamps=stamps,
-        texts=tuple(texts),
-        units={
-            name: found.units[cell]
-            for name, cell in zip(names, found.cells, strict=False)
-            if cell in found.units
-        },
-        notes=(
-            *(["the text is not UTF-8, and read as Windows-1252"] if encoding == WESTERN else []),
-            *_notes(found, stamps, cut=bool(cut), repeated=repeated),
-        ),
+        texts=_texts(cells, stamps),
+        units=_units(names, found),
+        notes=(*_encoding_notes(encoding), *_notes(found, stamps, cut=bool(cut), repeated=repeated)),
         cut=cut,
         repeated=lines[found.header_at].strip().encode(encoding) if repeated else b"",
         encoding=encoding,
     )
+
+
+def _refuse_blanks(found: TextHeader, lines: Sequence[str]) -> None:
+    if _is_spaced(lines):
+        raise LogError(
+            "the columns are separated by blanks, and their number differs from that of the names",
+            evidence={"header": found.cells[0][:120]},
+            remedy="write names without blanks, or separate the columns by commas, semicolons or tabs",
+        )
+
+
+def _texts(cells: Mapping[str, str], stamps: Collection[str]) -> tuple[str, ...]:
+    """Name the columns whose first cell is neither a number nor a stamp."""
+    filled = (name for name, cell in cells.items() if cell and not is_number(cell))
+    return tuple(name for name in filled if name not in stamps)
+
+
+def _units(names: Sequence[str], found: TextHeader) -> dict[str, str]:
+    """Give the units that a line of units or the names themselves state."""
+    cells = zip(names, found.cells, strict=False)
+    return {name: found.units[cell] for name, cell in cells if cell in found.units}
+
+
+def _encoding_notes(encoding: str) -> list[str]:
+    return ["the text is not UTF-8, and read as Windows-1252"] if encoding == WESTERN else []
 
 
 def _first_line(lines: Sequence[str]) -> TextHeader:

@@ -4,6 +4,7 @@ The column that names the joint is one of text, or of numbers under a name that 
 joint. What is left of a row are the joint's values, which become columns `value.joint`.
 """
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -78,21 +79,28 @@ def widen(table: Table) -> Table:
     return MemoryTable(columns, units, (*table.notes, note))
 
 
+def _is_key(name: str) -> bool:
+    return name.lower() in KEY_WORDS
+
+
+def _first(names: Iterable[str], matches: Callable[[str], bool]) -> str | None:
+    return next(filter(matches, names), None)
+
+
 def _long(table: Table) -> _Long | None:
     """Recognise a long table by its key and by stamps that repeat."""
-    key = next((name for name in table.names if name.lower() in KEY_WORDS), None)
-    stamp = next((name for name in table.names if _is_stamp(name)), None)
+    key, stamp = _first(table.names, _is_key), _first(table.names, _is_stamp)
     if key is None or stamp is None:
         return None
     texts = set(table.texts)
-    values = tuple(name for name in table.names if name not in (key, stamp) and name not in texts)
+    values = tuple(name for name in table.names if name not in {key, stamp, *texts})
     words = table.words(key) if key in texts else _numbers(table, key)
     keys = list(dict.fromkeys(words))
     if not values or not 2 <= len(keys) <= MOST_KEYS:
         return None
     stamps = np.hstack(list(table.batches([stamp])))[0]
     if np.mean(np.diff(stamps) == 0.0) < FEWEST_REPEATS * (1.0 - 1.0 / len(keys)):
-        return None
+        return None  # a row per instant whose key says something else
     named = np.array(words)
     return _Long(key, keys, [np.flatnonzero(named == word) for word in keys], stamp, values)
 
@@ -115,18 +123,17 @@ def _numbers(table: Table, key: str) -> list[str]:
 def _shared_stamps(found: _Long, stamps: np.ndarray) -> tuple[np.ndarray, list[np.ndarray | slice]]:
     """Give all stamps, and where those of each joint stand among them: a joint may lack some rows."""
     own = [stamps[rows] for rows in found.rows]
-    first = own[0]
-    if all(len(others) == len(first) and np.array_equal(others, first) for others in own):
-        return np.asarray(first), [slice(None)] * len(own)
+    if all(np.array_equal(others, own[0]) for others in own):
+        return np.asarray(own[0]), [slice(None)] * len(own)
     every, counts = np.unique(np.concatenate(own), return_counts=True)
-    in_order = all(bool(np.all(np.diff(one) > 0.0)) for one in own)
+    in_order = all(np.all(np.diff(stamps) > 0.0) for stamps in own)
     if in_order and np.count_nonzero(counts == len(own)) > MOST_SHARED * len(every):
-        return every, [np.searchsorted(every, one) for one in own]
+        return every, [np.searchsorted(every, stamps_of_joint) for stamps_of_joint in own]
     raise LogError(
         f"the rows of different {found.key}s have different stamps",
         evidence={
             "rows": dict(zip(found.keys[:16], map(len, own), strict=False)),
-            "first_stamps": {key: float(one[0]) for key, one in zip(found.keys[:16], own, strict=False)},
+            "first_stamps": dict(zip(found.keys[:16], [float(stamps[0]) for stamps in own], strict=False)),
         },
         remedy=f"write one row per {found.key} and instant, all of an instant under one stamp; or write each "
         f"{found.key} to a file of its own and join the files",

@@ -6,8 +6,9 @@ forward and only starts again when rows before its window are asked for.
 
 from bisect import bisect_right
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ import pyarrow.parquet as pq
 
 from ...arrays import Indices, Matrix, Samples, Series
 from ...errors import LogError
-from ..layout import Layout
+from ..columns.layout import Layout
 from ..model import LogRows
 from .arrow import numbers
 from .table import BATCH_ROWS, check_columns, check_density, check_rows, not_numeric, reading
@@ -86,26 +87,35 @@ def open_parquet(path: Path) -> ParquetTable:
         fields = list(file.schema_arrow)
         check_columns([field.name for field in fields])
         lengths = [metadata.row_group(group).num_rows for group in range(metadata.num_row_groups)]
-        columns = [part for column in fields for part in _parts(file, column)]
-    if sum(lengths) != metadata.num_rows:
-        raise LogError(
-            "the Parquet file contradicts itself about its number of rows",
-            evidence={"footer": metadata.num_rows, "row_groups": sum(lengths)},
-            remedy="write the file again",
-        )
-    check_columns([name for name, _, _ in columns])
+        columns = list(chain.from_iterable(_parts(file, column) for column in fields))
+    _check_counts(metadata.num_rows, sum(lengths))
+    names = tuple(name for name, _, _ in columns)
+    check_columns(names)
     lists = {name: (column.name, place) for name, column, place in columns if place != WHOLE}
-    split = dict.fromkeys(column for column, _ in lists.values())
     return ParquetTable(
         path=path,
-        names=tuple(name for name, _, _ in columns),
+        names=names,
         numeric=tuple(place != WHOLE or _is_number(column.type) for _, column, place in columns),
         samples=metadata.num_rows,
-        group_starts=tuple(int(start) for start in np.cumsum([0, *lengths])[:-1]),
+        group_starts=tuple(np.cumsum([0, *lengths])[:-1].tolist()),
         lists=lists,
         texts=tuple(column.name for column in fields if pa.types.is_string(column.type)),
-        notes=(f"lists in {', '.join(map(repr, split))} split into columns, from _1 on",) if split else (),
+        notes=_notes(column for column, _ in lists.values()),
     )
+
+
+def _check_counts(rows: int, in_groups: int) -> None:
+    if in_groups != rows:
+        raise LogError(
+            "the Parquet file contradicts itself about its number of rows",
+            evidence={"footer": rows, "row_groups": in_groups},
+            remedy="write the file again",
+        )
+
+
+def _notes(split: Iterable[str]) -> tuple[str, ...]:
+    listed = ", ".join(map(repr, dict.fromkeys(split)))
+    return (f"lists in {listed} split into columns, from _1 on",) if listed else ()
 
 
 def _parts(file: pq.ParquetFile, column: pa.Field) -> list[tuple[str, pa.Field, int]]:

@@ -51,11 +51,17 @@ class Clock:
 _NONE = np.iinfo(np.int64).min
 
 
+def _dated(word: str | None) -> str | None:
+    """Write a stamp as ISO 8601 does; a time of day is one of the first day."""
+    if not word:
+        return None
+    text = word.strip().replace(",", ".").replace(" ", "T")
+    return text if "T" in text else f"1970-01-01T{text}"
+
+
 def _microseconds(column: pa.Array) -> np.ndarray:
-    words = column.to_pylist()
-    texts = [None if not word else word.strip().replace(",", ".").replace(" ", "T") for word in words]
-    dated = [text if text is None or "T" in text else f"1970-01-01T{text}" for text in texts]
-    zoned = next((text for text in dated if text), "")
+    dated = list(map(_dated, column.to_pylist()))
+    zoned = next(filter(None, dated), "")
     zone = "UTC" if zoned.endswith("Z") or any(mark in zoned[11:] for mark in "+-") else None
     try:
         stamps = pa.array(dated, pa.string()).cast(pa.timestamp("us", zone)).cast(pa.int64())

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
 
-from ..named_units import UNIT_WORDS
+from ..columns.named_units import UNIT_WORDS
 
 DELIMITERS = ",;\t"
 BLANKS = " "
@@ -99,7 +99,7 @@ def _header_at(lines: Sequence[str], content: Sequence[int], place: int) -> Text
         names = split_cells(line, delimiter)
         if len(names) < 2 or any(map(is_number, names)) or not any(names):
             continue
-        rows = [split_cells(lines[index], delimiter) for index in content[place + 1 : place + 1 + ROWS]]
+        rows = _rows(lines, content[place + 1 : place + 1 + ROWS], delimiter)
         if not _are_wide(rows, len(names)):
             continue
         if _is_row(rows[0], len(names)):
@@ -140,18 +140,25 @@ def _commented(lines: Sequence[str], index: int) -> TextHeader | None:
 
 def _without_header(lines: Sequence[str], content: Sequence[int], place: int) -> TextHeader | None:
     """Take the line for the first row of a table without header if the next has as many numbers."""
-    above = [lines[index] for index in content[:place]]
-    for delimiter in _delimiters(lines[content[place]]):
-        if any(len(split_cells(line, delimiter)) > 1 for line in above):
+    index = content[place]
+    for delimiter in _delimiters(lines[index]):
+        if any(len(row) > 1 for row in _rows(lines, content[:place], delimiter)):
             continue  # what stands above may be a header that does not fit
-        cells = split_cells(lines[content[place]], delimiter)
-        following = [split_cells(lines[index], delimiter) for index in content[place + 1 : place + 2]]
-        numbers = [cell for cell in cells if cell]
-        alike = all(len(row) == len(cells) for row in following)
-        if len(numbers) > 1 and all(map(is_number, numbers)) and alike:
-            index = content[place]
+        cells = split_cells(lines[index], delimiter)
+        next_rows = _rows(lines, content[place + 1 : place + 2], delimiter)
+        if _are_numbers(cells) and all(len(row) == len(cells) for row in next_rows):
             return TextHeader((), len(cells), delimiter, lines[index], index, titles=place)
     return None
+
+
+def _rows(lines: Sequence[str], at: Sequence[int], delimiter: str) -> list[list[str]]:
+    return [split_cells(lines[index], delimiter) for index in at]
+
+
+def _are_numbers(cells: Sequence[str]) -> bool:
+    """Tell whether cells hold numbers or nothing, and at least two of them numbers."""
+    filled = [cell for cell in cells if cell]
+    return len(filled) > 1 and all(map(is_number, filled))
 
 
 def _delimiters(line: str) -> Iterator[str]:

@@ -11,8 +11,8 @@ from itertools import pairwise
 import numpy as np
 
 from ...arrays import Samples
+from ..columns.layout import Layout
 from ..defects.runs import KEPT
-from ..layout import Layout
 from ..model import ArraySource, Defect, LogRows, LogSource, rows_at
 from .ends import FEWEST_ROWS, BadEnd, bad_head, bad_tail
 from .missing import WHAT, check_missing, missing_defects

@@ -6,7 +6,7 @@ the clock or of the motion, so that both are left out before these are judged.
 
 import numpy as np
 
-from ...arrays import Indices, SampleMask
+from ...arrays import Indices, JointSeries, JointVector, SampleMask
 from ..defects.stretch import count_text
 from ..model import STANDING_ROWS, Defect, LogRows, rows_at
 from .ends import JUMP_FACTOR, USUAL_SHARE
@@ -57,16 +57,27 @@ def _doubled(rows: LogRows, last: LogRows | None) -> SampleMask:
     return marks
 
 
+def _all_zero(rows: LogRows) -> SampleMask:
+    """Mark the rows whose positions and efforts are all zero."""
+    channels = (rows.position, rows.torque, rows.current)
+    zero = [np.all(values == 0.0, axis=1) for values in channels if values is not None]
+    return np.asarray(np.logical_and.reduce(zero))
+
+
+def _usual_step(position: JointSeries) -> JointVector:
+    """Give, per joint, a step that most steps do not exceed."""
+    steps = np.abs(np.diff(position, axis=0))
+    known = steps[np.isfinite(steps).all(axis=1)]
+    return np.quantile(known, USUAL_SHARE, axis=0) if len(known) else np.full(steps.shape[1], np.inf)
+
+
 def _blank(rows: LogRows) -> SampleMask:
     """Mark short runs of zeros between rows at which a joint is too far from zero to have come from there."""
-    efforts = [values for values in (rows.torque, rows.current) if values is not None]
-    zero = np.logical_and.reduce([np.all(values == 0.0, axis=1) for values in (rows.position, *efforts)])
+    zero = _all_zero(rows)
     marks = np.zeros(len(zero), dtype=bool)
     if not zero.any() or zero.all():
         return marks
-    steps = np.abs(np.diff(rows.position[~zero], axis=0))
-    known = steps[np.isfinite(steps).all(axis=1)]
-    usual = np.quantile(known, USUAL_SHARE, axis=0) if len(known) else np.full(steps.shape[1], np.inf)
+    usual = _usual_step(rows.position[~zero])
     edges = np.flatnonzero(np.diff(zero, prepend=False, append=False))
     for start, stop in zip(edges[::2], edges[1::2], strict=True):
         if start == 0 or stop == len(zero) or stop - start > STANDING_ROWS:

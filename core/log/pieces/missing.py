@@ -11,9 +11,9 @@ import numpy as np
 from ...arrays import Samples
 from ...errors import LogError
 from ..channels import CHANNELS, EFFORTS, TIME
+from ..columns.layout import Layout
 from ..defects.runs import Runs
 from ..defects.stretch import count_text
-from ..layout import Layout
 from ..model import Defect, LogSource
 from .ends import FEWEST_ROWS
 from .survey import BLOCK_ROWS, Column, Survey

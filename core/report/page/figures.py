@@ -48,7 +48,7 @@ def finding_figure(curve: Document, unit: str) -> Markup:
 
 
 def dependence_figure(listed: Sequence[tuple[Document, str]]) -> Markup | None:
-    """Draw residuals, each over one coordinate, with its unit; the 95 % band of the mean lies about zero."""
+    """Draw residuals, each over one coordinate, with its unit; the 95 % band of the mean is around zero."""
     if not listed:
         return None
     panels = (_dependence(dependence, unit) for dependence, unit in listed)

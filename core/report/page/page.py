@@ -5,7 +5,7 @@ The page holds no script and loads nothing from elsewhere.
 
 from collections.abc import Sequence
 
-from ...document.answer import EXTENDED, model_name
+from ...document.model.answer import EXTENDED, model_name
 from . import overview, remainder, robot
 from .conflicts import disagreements, other_warnings
 from .figures import dependence_figure

@@ -1,4 +1,4 @@
-"""Name the columns of the file of traces: one row per kept instant, one column per signal and joint.
+"""Name the columns of the file of traces: one row per decimated sample, one column per signal and joint.
 
 The names are those of the published file `residuals.parquet`; what a reader asks for is named without the
 joint's number.

@@ -47,7 +47,7 @@ class Traces:
     """Hold decimated traces on one time axis."""
 
     extent: tuple[float, float]
-    """First and last kept instant of the whole log, s."""
+    """First and last decimated sample of the whole log, s."""
     time: Instants
     values: InstantSeries
     """Instants, and one column per signal; NaN at gaps."""

@@ -25,7 +25,7 @@ def test_a_log_that_arrives_as_announced_is_taken(client, log_bytes, name):
 
 
 @pytest.mark.parametrize("name", ["sha-256", "sha-512"])
-def test_a_log_that_was_spoilt_on_the_way_is_refused_and_not_kept(client, log_bytes, name):
+def test_a_log_that_was_corrupted_on_the_way_is_refused_and_not_kept(client, log_bytes, name):
     spoilt = log_bytes.replace(b"0", b"1", 1)
     problem = assert_problem(upload(client, spoilt, digest(log_bytes, name)), 400, "digest")
     assert problem["evidence"]["algorithm"] == name

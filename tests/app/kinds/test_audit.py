@@ -14,7 +14,7 @@ from veritorque.app.schemas.audit import AuditDocument
 from veritorque.app.terminal.output.exit_codes import Exit
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.robot.inertia import from_mass_properties, mass_properties
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 
 BODY = {"mass": 2.0, "center_of_mass": [0.2, 0.0, 0.0], "inertia_at_com": [0.01, 0.0, 0.0, 0.02, 0.0, 0.02]}
 

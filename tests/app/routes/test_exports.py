@@ -11,11 +11,11 @@ from tests.app.stubs import StubExecutor
 from veritorque.app.jobs.computation import Finished
 from veritorque.app.json_text import json_bytes
 from veritorque.app.services.export_files import ARTIFACTS
-from veritorque.core.document.model_file import read_model
-from veritorque.core.document.reading import identified_robot
+from veritorque.core.document.model.model_file import read_model
+from veritorque.core.document.model.reading import identified_robot
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.description import robot_from_description
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 from veritorque.core.study import IdentifyRequest, identify
 
 MEDIA_TYPES = {
@@ -119,7 +119,7 @@ def test_a_result_that_holds_no_robot_is_a_problem_and_no_mistake_of_ours(tmp_pa
             assert_problem(client.get(f"{results}/{name}"), 422, "robot")
 
 
-def test_a_result_of_an_earlier_diagnosis_that_kept_no_model_gives_the_robot_before_the_cure(
+def test_a_result_of_an_earlier_diagnosis_that_kept_no_model_gives_the_robot_before_the_correction(
     tmp_path, document
 ):
     bare = {"after": {"validation": [], "base_parameters": []}}

@@ -70,7 +70,7 @@ def test_a_deleted_robot_is_gone(client):
     assert_problem(client.get(created.headers["location"]), 404, "not-found")
 
 
-def test_degrees_for_radians_are_suspected_in_the_answer(client):
+def test_degrees_for_radians_are_reported_in_the_answer(client):
     joint = description()["joints"][0] | {"alpha": 90.0}
     answer = client.post("/v1/robots", json=description() | {"joints": [joint]})
     assert answer.status_code == 201

@@ -180,7 +180,7 @@ UNITS = {"time": ("ms", {"time_factor": 1000.0}), "position": ("deg", {"angle_fa
 
 
 @pytest.mark.parametrize("channel", UNITS)
-def test_default_names_in_other_units_are_told_with_the_mapping_that_mends_them(tmp_path, channel):
+def test_default_names_in_other_units_are_told_with_the_mapping_that_corrects_them(tmp_path, channel):
     unit, factors = UNITS[channel]
     path = written(tmp_path / "scaled.csv", DEFAULT, **factors)
     seen = run("logs", "check", path)

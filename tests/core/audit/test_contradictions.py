@@ -13,7 +13,7 @@ from veritorque.core.audit.entries import Bodies, Entry
 from veritorque.core.export.described import urdf_of_description, urdf_with_bodies
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.description import robot_from_description
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 from veritorque.core.robot_audit import audit_robot
 from veritorque.core.study import IdentifyRequest
 
@@ -30,7 +30,7 @@ def test_a_sound_description_is_contradicted_in_nothing(seed):
     assert counted(draw(seed, errors=0)).wrong == frozenset()
 
 
-def test_the_corrected_description_tells_the_truth_and_nothing_else_changes():
+def test_the_corrected_description_is_the_true_one_and_nothing_else_changes():
     case = draw(5000, errors=0)
     spoilt = case.truth.copy()
     spoilt[3] = Bodies(case.truth).changed([(3, 0)], np.array([2.0 * case.truth[3, 9]]))[3]

@@ -20,7 +20,7 @@ from veritorque.core.conflicts.trial import Trials
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.terms.kinematic_error import with_entry
 from veritorque.core.identification.doubts import has_impossible_joint
-from veritorque.core.log.assignment import Assignment, assigned
+from veritorque.core.log.columns.assignment import Assignment, assigned
 from veritorque.core.log.model import whole_rows
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.description import robot_from_description
@@ -54,13 +54,13 @@ def arm():
 
 
 @pytest.mark.parametrize("way", sorted(SPOILERS))
-def test_what_is_spoilt_is_named_and_nothing_else(arm, way):
+def test_the_conflict_is_named_and_nothing_else(arm, way):
     robot, log, sound = arm
     found = answer(SPOILERS[way](robot, log, np.random.default_rng(16)), sound)
     assert found.exact, found
 
 
-def test_two_things_that_are_spoilt_are_named_one_after_the_other(arm):
+def test_two_conflicts_are_named_one_after_the_other(arm):
     robot, log, sound = arm
     plain = Assignment.as_measured(4)
     spoilt = replace(plain, torque=plain.torque.scaled(-1.0, 1), position=plain.position.scaled(-1.0, 2))
@@ -272,7 +272,7 @@ def test_sound_measured_robots_have_no_conflict():
 
 
 @pytest.mark.parametrize("way", ["channels_swapped", "mounting"])
-def test_what_is_spoilt_on_a_measured_robot_is_named(way):
+def test_a_conflict_on_a_measured_robot_is_named(way):
     robot, log = measured_robot("ur10e_open"), measured_log("ur10e_open", "fourier_30s_12h")
     spoilt = SPOILERS[way](robot, log, np.random.default_rng(4))
     assert answer(spoilt, 5.0).exact

@@ -7,7 +7,8 @@ import pytest
 
 from tests.core.diagnosis.residual.worlds import EXAMPLE, world
 from tests.core.diagnosis.scenes import Effect, Scene, measured_arm
-from veritorque.core.diagnosis.diagnose import DiagnosisProblem, diagnose
+from veritorque.core.diagnosis.diagnose import diagnose
+from veritorque.core.diagnosis.problem import DiagnosisProblem
 from veritorque.core.diagnosis.result import Diagnosis
 from veritorque.core.extension.cure import corrections, extended_base, input_note
 from veritorque.core.log.reader import read_log
@@ -47,7 +48,7 @@ def test_nothing_is_found_in_the_shipped_log_of_an_arm_that_is_as_described():
     np.testing.assert_array_equal(found.residual_before, found.residual_after)
 
 
-def test_nothing_is_cured_where_nothing_is_found():
+def test_nothing_is_corrected_where_nothing_is_found():
     found = diagnosed(None)
     assert (found.verdict, found.findings, corrections(found)) == ("nothing_found", (), ())
 
@@ -112,7 +113,7 @@ def test_only_the_joint_of_the_finding_changes_much():
     np.testing.assert_allclose(after[[0, 2]], before[[0, 2]], rtol=0.02)
 
 
-def test_the_cure_joins_the_model_under_its_own_name():
+def test_the_correction_joins_the_model_under_its_own_name():
     found = diagnosed(hidden)
     (term,) = corrections(found)
     assert input_note(found) == ""
@@ -138,12 +139,12 @@ def test_a_pattern_that_no_listed_cause_has_is_told_without_a_name_and_makes_the
     assert found.unnamed_pattern.log10_p < -10.0
 
 
-def test_nothing_strange_is_told_where_nothing_is_left():
+def test_no_unnamed_pattern_is_reported_where_nothing_is_left():
     assert diagnosed(None).unnamed_pattern is None
     assert diagnosed(hidden).unnamed_pattern is None
 
 
 @pytest.mark.parametrize("joint", [1, 2, 3])
-def test_what_a_learner_could_still_gain_is_told_for_every_joint(joint):
+def test_the_explainable_variance_is_reported_for_every_joint(joint):
     (one,) = [part for part in diagnosed(None).predictable if part.joint == joint]
     assert one.interval[0] <= one.share <= one.interval[1]

@@ -13,8 +13,8 @@ from tests.app.planar_arm import columns, description
 from tests.core.report.page.test_page import Page
 from veritorque.app.client.result import Result
 from veritorque.app.schemas.results import ResultDocument
-from veritorque.core.document.model_file import read_model
-from veritorque.core.document.reading import identified_model, identified_robot
+from veritorque.core.document.model.model_file import read_model
+from veritorque.core.document.model.reading import identified_model, identified_robot
 from veritorque.core.export.formats import FORMATS
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.report.page.page import compose_page

@@ -64,7 +64,7 @@ def test_what_is_not_finite_is_null():
     assert shown["parameters"][0]["relative_deviation_percent"] is None
 
 
-def test_rivals_are_named_in_words_with_the_experiment_that_separates_them():
+def test_alternatives_are_named_in_words_with_the_experiment_that_separates_them():
     (undecided,) = row(finding())["ambiguous_with"]
     assert (undecided["title"], undecided["separating_experiment"]) == (
         "Encoder eccentricity",

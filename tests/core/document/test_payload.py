@@ -14,7 +14,7 @@ from veritorque.core.document.payload import framed_payload, load_in
 from veritorque.core.robot.frames import rotation_rpy, rotation_x, rotation_y, rotation_z
 from veritorque.core.robot.inertia import from_mass_properties, transform_body
 from veritorque.core.robot.model import NamedFrame
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 
 NUMBER = r"-?\d+(?:\.\d+)?"
 HOME = np.eye(3)

@@ -37,7 +37,7 @@ def state() -> MotionState:
     return MotionState(*(rng.normal(size=(40, 4)) for _ in range(3)))
 
 
-def test_every_file_of_terms_is_a_standard_term_or_the_cure_of_a_cause_or_the_patterns_without_one():
+def test_every_file_of_terms_is_a_standard_term_or_the_term_of_a_cause_or_the_patterns_without_one():
     found = {file_of(term) for term in (*cures(), *traces())}
     assert set(FILES) == set(STANDARD_TERMS) | found
     assert all(term().name == name for name, term in STANDARD_TERMS.items())

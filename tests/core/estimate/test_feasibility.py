@@ -14,7 +14,7 @@ from veritorque.core.robot.inertia import from_mass_properties
 
 @settings(max_examples=10)
 @given(seed=st.integers(0, 10_000), links=st.integers(1, 5))
-def test_the_base_parameters_of_a_robot_that_exists_are_feasible(seed, links):
+def test_the_base_parameters_of_a_consistent_robot_are_feasible(seed, links):
     world = world_of(random_robot(np.random.default_rng(seed), links), seed=seed, samples=60)
     assert feasibility(world.base, world.true_base, world.prior).feasible
 

@@ -51,7 +51,7 @@ def test_a_margin_that_was_asked_for_is_kept_and_so_is_the_default_where_it_is_n
     assert found.solution.margin == DEFAULT_MARGIN
 
 
-def test_no_refusal_of_a_solver_blames_the_motion():
+def test_no_refusal_of_a_solver_names_the_motion_as_its_reason():
     for kind in ("inaccurate", "stopped"):
         said = refusal(kind, status="", solver="", iterations=0)
         assert isinstance(said, SolverError)

@@ -25,7 +25,7 @@ def _fit(world: World, **options: object) -> np.ndarray:
     return estimate(world.base, world.system, world.prior, EstimateOptions(**options)).standard
 
 
-def test_what_the_motion_leaves_open_keeps_the_value_that_was_believed():
+def test_what_the_motion_does_not_determine_keeps_the_value_of_the_prior():
     world = world_of(random_robot(np.random.default_rng(0), 3, prismatic=0.0), samples=400, noise=1e-4)
     believed = true_parameters(world.model, seed=77)
     found = _fit(_believing(world, believed))
@@ -42,7 +42,7 @@ def test_a_right_prior_gives_the_whole_robot_back():
     np.testing.assert_allclose(found / world.prior.scale, world.truth / world.prior.scale, atol=2e-3)
 
 
-def test_a_stronger_entropic_prior_brings_the_bodies_nearer_to_the_believed_ones():
+def test_a_stronger_entropic_prior_brings_the_bodies_nearer_to_those_of_the_prior():
     world = world_of(random_robot(np.random.default_rng(0), 2, prismatic=0.0), samples=300, noise=0.05)
     believed = _believing(world, true_parameters(world.model, seed=5))
     distances = [
@@ -116,7 +116,7 @@ def test_the_entropic_prior_is_refused_where_the_solver_cannot_state_it():
         EstimateOptions(entropy=1.0, solver="clarabel")
 
 
-def test_a_planar_robot_without_data_about_a_parameter_gives_it_the_believed_value():
+def test_a_planar_robot_without_data_about_a_parameter_gives_it_the_value_of_the_prior():
     world = world_of(planar_robot(), noise=1e-3, samples=300)
     believed = true_parameters(world.model, seed=9)
     found = _fit(_believing(world, believed), bounds=Bounds(margin=0.0, plausible=False))

@@ -36,7 +36,7 @@ def _objective(world: World, standard: np.ndarray) -> float:
 
 
 @pytest.mark.parametrize("start", ["optimum", "random"])
-def test_no_direct_search_finds_a_cheaper_robot_that_can_exist(start):
+def test_no_direct_search_finds_a_cheaper_consistent_robot(start):
     world = _world()
     best = estimate(world.base, world.system, world.prior, EstimateOptions()).standard
     inside = 0.999 * best + 0.001 * world.prior.centre

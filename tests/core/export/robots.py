@@ -7,14 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from tests.core.robot.urdf_makers import random_urdf
+from tests.core.robot.urdf.makers import random_urdf
 from tests.tools import random_bodies, random_robot, with_mimics
-from veritorque.core.document.identified import BaseValue, IdentifiedRobot
+from veritorque.core.document.model.identified import BaseValue, IdentifiedRobot
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.robot.builtin import builtin_robot
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.model import Coupling, Link, RobotModel
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 from veritorque.core.signals.state import MotionState
 
 GUIDE = (Path(__file__).parents[3] / "docs" / "robots.md").read_text(encoding="utf-8")

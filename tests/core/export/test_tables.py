@@ -13,7 +13,7 @@ from scipy.io import loadmat
 
 from tests.core.export.robots import ROBOTS, brisk, identified
 from tests.core.report.documents import identified as result
-from veritorque.core.document.identified import IdentifiedRobot
+from veritorque.core.document.model.identified import IdentifiedRobot
 from veritorque.core.dynamics.terms.coulomb import Coulomb
 from veritorque.core.dynamics.terms.coupling import GearCoupling
 from veritorque.core.export.c_header import c_name, write_c_header

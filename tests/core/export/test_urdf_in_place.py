@@ -14,15 +14,15 @@ from hypothesis import strategies as st
 
 from tests.core.export import engines
 from tests.core.export.robots import ROBOTS, brisk, identified
-from tests.core.robot.test_urdf import TREE
-from tests.core.robot.urdf_makers import random_urdf
+from tests.core.robot.urdf.makers import random_urdf
+from tests.core.robot.urdf.test_urdf import TREE
 from tests.tools import shared
 from veritorque.core.errors import RobotError
 from veritorque.core.export.movers import movers
 from veritorque.core.export.urdf import write_urdf
 from veritorque.core.export.urdf_in_place import urdf_with_inertials
 from veritorque.core.robot.differences import differences
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 
 CHANGED = re.compile(rb"<inertial>.*?</inertial>|<dynamics[^>]*>|<!--.*?-->|\s+", re.DOTALL)
 

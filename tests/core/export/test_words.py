@@ -11,9 +11,9 @@ import pytest
 from scipy.io import loadmat
 
 from tests.core.export.robots import ROBOTS, identified
-from veritorque.core.document.caveats import REPRESENTATIVE
-from veritorque.core.document.identified import IdentifiedRobot
-from veritorque.core.document.model_file import write_model
+from veritorque.core.document.model.caveats import REPRESENTATIVE
+from veritorque.core.document.model.identified import IdentifiedRobot
+from veritorque.core.document.model.model_file import write_model
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.errors import OptionError, RobotError
 from veritorque.core.export.c_header import write_c_header
@@ -185,7 +185,7 @@ def test_a_c_header_holds_names_that_would_end_its_comments_and_strings():
     ],
     ids=["against the triangle inequality", "without mass", "negative"],
 )
-def test_a_body_that_cannot_exist_is_refused_with_what_to_do(name, body):
+def test_an_inconsistent_body_is_refused_with_what_to_do(name, body):
     whole = identified(ROBOTS["yumi-left"])
     standard = whole.standard.copy()
     standard[10:20] = body

@@ -101,7 +101,7 @@ def test_an_extension_of_size_zero_is_the_old_model(world):
         assert one.interval_95 == pytest.approx((0.0, 0.0), abs=1e-6)
 
 
-def test_the_true_size_makes_the_residual_on_unseen_blocks_smaller_where_the_effect_is_and_only_there(world):
+def test_the_true_size_makes_the_residual_on_held_out_blocks_smaller_only_where_the_effect_is(world):
     other, own = world.gained(SIZE)
     assert own.rms_after < 0.5 * own.rms_before
     assert 50.0 < own.interval_95[0] < own.improvement_percent < own.interval_95[1]

@@ -49,6 +49,6 @@ def test_three_blocks_are_too_few_to_say():
     assert motion_intervals(Comparison(strayed([1.0, 1.0], blocks=3), strayed([0.5, 0.5], blocks=3))) is None
 
 
-def test_a_joint_that_did_not_stray_gained_nothing():
+def test_a_joint_without_error_gained_nothing():
     found = motion_intervals(Comparison(strayed([0.0, 1.0]), strayed([0.0, 0.5])))
     assert found[0] == pytest.approx([0.0, 0.0])

@@ -56,7 +56,7 @@ def torque(robot: RobotModel, position: np.ndarray) -> np.ndarray:
     return inverse_dynamics(robot, random_bodies(rng, len(robot.links)), state)
 
 
-def test_every_cause_that_mends_the_description_is_repaired_here():
+def test_every_cause_that_corrects_the_description_is_repaired_here():
     assert set(REPAIRS) == {name for name, one in BY_ID.items() if corrects(one) == "robot"}
 
 
@@ -79,7 +79,7 @@ def test_a_sentence_says_what_goes_from_what_to_what(one):
 
 
 @pytest.mark.parametrize("arm", [skew_arm(), mimicking_arm()], ids=["table", "frames"])
-def test_a_robot_whose_zero_is_mended_feels_at_a_reading_what_it_felt_at_the_true_angle(arm):
+def test_a_robot_with_a_corrected_zero_has_at_a_reading_the_torque_of_the_true_angle(arm):
     true = np.random.default_rng(2).uniform(-3.0, 3.0, (5, len(arm.joints)))
     reading = true + LARGE * np.eye(len(arm.joints))[1]
     mended = repaired_robot(arm, [repair("encoder_offset", 2, offset=LARGE)])

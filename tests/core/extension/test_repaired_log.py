@@ -100,7 +100,7 @@ def mended(log: JointLog, repairs: list[Repair], robot: RobotModel | None = None
     return repaired_log(log, robot or planar_robot(), repairs)
 
 
-def test_every_cause_that_mends_a_log_is_repaired_here():
+def test_every_cause_that_corrects_a_log_is_repaired_here():
     assert {*FAULTS, "encoder_eccentricity"} == {
         name for name, one in BY_ID.items() if corrects(one) == "log"
     }
@@ -165,7 +165,7 @@ def test_an_angle_that_errs_once_per_turn_is_right_to_the_square_of_its_error_an
     np.testing.assert_array_equal(rows.torque, effort)
 
 
-def test_nothing_is_mended_across_a_gap_and_rows_whose_torque_nobody_knows_are_left_out():
+def test_nothing_is_corrected_across_a_gap_and_rows_of_unknown_torque_are_left_out():
     time = np.concatenate([even_time(), even_time() + SECONDS + 2.0])
     log = log_of(time, motion(time)[0], torque(time - DELAY))
     found = mended(log, [Repair("time_delay", ALL, "log", "", {"delay": DELAY})])

@@ -52,7 +52,7 @@ def test_a_prior_counts_like_rows_of_a_log_of_its_own(equations):
     assert found.log_likelihood == pytest.approx(-0.5 * missed - logs, rel=1e-12)
 
 
-def test_what_is_believed_beyond_doubt_is_what_is_fitted(equations):
+def test_a_prior_without_deviation_is_what_is_fitted(equations):
     found = fit(equations.joints, prior=EXACT)
     np.testing.assert_allclose(found.values, BASE, rtol=1e-4)
 
@@ -66,7 +66,7 @@ def test_a_prior_stays_when_columns_join(equations):
     np.testing.assert_allclose(found.values, whole.values, rtol=1e-9)
 
 
-def test_a_column_that_the_model_has_already_is_told_only_where_its_own_coefficient_is_believed(equations):
+def test_a_column_that_the_model_has_already_is_determined_only_where_its_coefficient_has_a_prior(equations):
     known = [{joint: one[:, :1] for joint, one in enumerate(equations.base)}]
     free, pinned = (fit(equations.joints, NOISE, rounds=0, prior=one) for one in (None, EXACT))
     assert score(free, equations.joints, known)[0].clear_share < 1e-6
@@ -93,7 +93,7 @@ def test_a_description_tells_nothing_of_friction_and_rotors(base):
         assert np.abs(reference.rows[:, names[name]]).max() < 1e-9
 
 
-def test_bodies_are_believed_to_a_share_of_their_own_size(base):
+def test_bodies_have_a_prior_deviation_of_a_share_of_their_own_size(base):
     """Draw pseudo-inertias whose entries are off by the stated share; their distance has unit variance."""
     rng, reference = np.random.default_rng(1), reference_from_prior(base)
     bodies = bodies_of_skew_arm()

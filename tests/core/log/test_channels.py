@@ -13,11 +13,11 @@ from veritorque.core.dynamics.model import standard_model
 from veritorque.core.errors import LogError
 from veritorque.core.log.channels import CHANNELS, JOINT_CHANNELS, TIME
 from veritorque.core.log.check import check_log
-from veritorque.core.log.mapping import parse_mapping
+from veritorque.core.log.columns.mapping import parse_mapping
+from veritorque.core.log.columns.plausible_units import plausible_readings
+from veritorque.core.log.columns.profiles import PROFILES
 from veritorque.core.log.model import LogRows, rows_at, whole_rows
-from veritorque.core.log.plausible_units import plausible_readings
 from veritorque.core.log.preview import preview
-from veritorque.core.log.profiles import PROFILES
 from veritorque.core.log.reader import log_from_arrays, read_log
 from veritorque.core.study import IdentifyRequest, identify
 

@@ -41,7 +41,7 @@ def test_every_public_log_is_read_as_its_notes_say(path):
 
 
 @pytest.mark.parametrize("path", RUNS, ids=lambda path: f"{path.parts[-3]}-{path.stem}")
-def test_no_public_log_is_accused_of_what_it_does_not_have(path):
+def test_no_defect_is_reported_of_a_public_log_that_does_not_have_it(path):
     found = {defect.kind for defect in read_log(path).defects}
     assert not found & {"saturation", "slow_rate", "implausible_unit", "missing_torque"}
 

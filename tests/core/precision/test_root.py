@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from veritorque.core.document.reference import read_factor, write_factor
+from veritorque.core.document.model.reference import read_factor, write_factor
 from veritorque.core.precision.inference import Inference
 
 

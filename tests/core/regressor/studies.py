@@ -68,7 +68,7 @@ def _derivative_by_scipy(series: np.ndarray) -> np.ndarray:
 
 
 def observation_by_scipy(study: Recorded) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """Give every column by its name and the torque, kept instants by joints, without any code of ours."""
+    """Give every column by its name and the torque, decimated samples by joints, without any code of ours."""
     smooth = filtered_by_scipy(
         np.column_stack([_without_absurd(one) for one in study.position.T]), POSITION_CUTOFF_HZ
     )

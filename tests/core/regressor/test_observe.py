@@ -56,14 +56,14 @@ def observation(plan, motion) -> Observation:
 
 @pytest.fixture(scope="module")
 def by_scipy(study, plan) -> tuple[np.ndarray, np.ndarray]:
-    """Give W (kept instants, joints, columns of the plan) and Y (kept instants, joints)."""
+    """Give W (decimated samples, joints, columns of the plan) and Y (decimated samples, joints)."""
     columns, torque = observation_by_scipy(study)
     names = [plan.model.parameters[column].name for column in plan.columns]
     return np.stack([columns[name] for name in names], axis=-1), torque
 
 
 def _inside(motion: Motion) -> np.ndarray:
-    """Give the places of the kept instants in the inner blocks."""
+    """Give the places of the decimated samples in the inner blocks."""
     borders = [motion.kept * number // BLOCKS for number in (INSIDE[0], INSIDE[-1] + 1)]
     return np.arange(*borders)
 

@@ -5,12 +5,12 @@ import copy
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from tests.core.robot.urdf_makers import joint, link, robot
+from tests.core.robot.urdf.makers import joint, link, robot
 from veritorque.core.errors import RobotError
 from veritorque.core.robot.builtin import builtin_description
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.model import RobotModel
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 from veritorque.core.robot.writing import to_description
 
 JUNK = st.recursive(

@@ -15,7 +15,7 @@ from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.frames import rotation_rpy
 from veritorque.core.robot.inertia import mass_properties
 from veritorque.core.robot.model import Joint, Link, RobotModel
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 from veritorque.core.robot.writing import to_description
 
 QUARTER = np.pi / 2

@@ -13,7 +13,7 @@ from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.extent import distance_square, link_extents, mean_distance
 from veritorque.core.robot.inertia import from_mass_properties, pseudo_inertia
 from veritorque.core.robot.model import Ball
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 from veritorque.core.robot.writing import to_description
 
 MESH = '<mesh filename="a.stl"/>'

@@ -112,7 +112,7 @@ def test_a_rod_about_its_end_has_four_times_the_moment_about_its_centre():
     )
 
 
-def test_a_body_that_breaks_the_triangle_inequality_cannot_exist_although_its_spatial_inertia_is_positive():
+def test_a_body_that_breaks_the_triangle_inequality_is_inconsistent_with_a_positive_spatial_inertia():
     inertia = np.diag([1.0, 1.0, 3.0])
     body = from_mass_properties(1.0, np.zeros(3), inertia)
     spatial = np.block([[inertia, np.zeros((3, 3))], [np.zeros((3, 3)), np.eye(3)]])

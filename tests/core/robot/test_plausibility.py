@@ -8,7 +8,7 @@ import pytest
 from tests.tools import shared
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.plausibility import plausibility_warnings
-from veritorque.core.robot.urdf import robot_from_urdf
+from veritorque.core.robot.urdf.read import robot_from_urdf
 
 # KUKA-like proportions in Khalil's convention.
 QUARTER = np.pi / 2
@@ -34,19 +34,19 @@ def test_the_tables_of_real_robots_raise_no_warning(name):
     assert _warnings(rows, gravity=table["gravity"]) == ()
 
 
-def test_a_table_written_in_degrees_and_millimetres_are_suspected():
+def test_a_table_written_in_degrees_and_millimetres_is_reported():
     rows = [(90.0 if row[0] else 0.0, 1000 * row[1], 1000 * row[2], 180.0 if row[3] else 0.0) for row in ROWS]
     said = _warnings(rows)
     assert sum("were degrees meant" in line for line in said) == 3
     assert sum("millimetres or centimetres meant" in line for line in said) == 2
 
 
-def test_letters_of_craig_are_suspected():
+def test_letters_of_craig_are_reported():
     rows = [(alpha, r, d, theta) for alpha, d, r, theta in ROWS]
     assert any("Khalil's d is Craig's a" in line for line in _warnings(rows))
 
 
-def test_a_standard_table_is_suspected():
+def test_a_standard_table_is_reported():
     # The same arm with alpha of the next joint in every row, as in distal Denavit-Hartenberg.
     rows = [(-1.5708, 0.0, 0.34, 0.0), (1.5708, 0.05, 0.0, 0.0), (0.0, 0.0, 0.4, 3.1416)]
     assert any("standard Denavit-Hartenberg" in line for line in _warnings(rows))
@@ -60,17 +60,17 @@ def test_a_standard_table_is_suspected():
         ((0.0, 0.0, 0.0), "on Earth"),
     ],
 )
-def test_gravity_that_points_up_or_is_not_that_of_the_earth_is_suspected(gravity, words):
+def test_gravity_that_points_up_or_is_not_that_of_the_earth_is_reported(gravity, words):
     said = _warnings(gravity=list(gravity))
     assert len(said) == 1
     assert words in said[0]
 
 
-def test_a_tilted_base_is_not_suspected():
+def test_a_tilted_base_is_not_reported():
     assert _warnings(gravity=[-5.307, -6.843, -4.609]) == ()
 
 
-def test_position_limits_in_degrees_are_suspected():
+def test_position_limits_in_degrees_are_reported():
     row = {
         "type": "revolute",
         "alpha": 0,
@@ -96,7 +96,7 @@ def _said_of(alpha: float) -> str:
 
 
 @pytest.mark.parametrize("alpha", [1.57, 1.571, -3.14, QUARTER + 3e-4, QUARTER - 1.23456e-6])
-def test_an_angle_that_misses_a_right_angle_by_a_little_is_suspected_and_kept(alpha):
+def test_an_angle_that_misses_a_right_angle_by_a_little_is_reported_and_kept(alpha):
     assert "were right angles meant" in _said_of(alpha)
 
 

@@ -17,7 +17,7 @@ SMOOTH = FilterOptions(1, 10.0, 40.0, decimation=10)
 
 
 def _kept(motion: Motion) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Give kept instants, motion (position, velocity, acceleration) at them, and which are usable."""
+    """Give decimated samples, motion (position, velocity, acceleration) at them, and which are usable."""
     time, states, usable = [], [], []
     for tile in motion.tiles():
         at = tile.first + tile.parallel.decimation * np.arange(len(tile.time))

@@ -114,7 +114,7 @@ def test_what_does_not_remember_needs_the_instant_alone_and_what_does_needs_more
 
 
 @pytest.mark.parametrize(("cause", "term"), cures_by_cause(), ids=lambda one: getattr(one, "id", ""))
-def test_only_what_cures_the_signal_of_torque_is_left_out_of_the_robot(cause, term):
+def test_only_corrections_of_the_torque_signal_are_left_out_of_the_robot(cause, term):
     assert term.channel == (cause.cure == "signal" and not cause.id.startswith("encoder"))
 
 

@@ -10,7 +10,7 @@ from veritorque.core.simulation.multistep import MultiStepOptions, compare, pred
 from veritorque.core.simulation.windows import windows
 
 
-def test_the_true_model_strays_a_hundredth_of_what_no_model_does(arm, motion):
+def test_the_true_model_has_a_hundredth_of_the_error_of_no_model(arm, motion):
     found = predict_motion(mechanism(*arm, FC=1.0), (motion,))
     assert len(found.keys) > 40
     assert np.all(found.position_rms < 0.01 * found.still_rms)

@@ -38,7 +38,7 @@ def test_the_mass_matrix_is_pinocchios_with_the_rotor_inertias_on_its_diagonal(s
 
 @settings(max_examples=15)
 @given(seed=st.integers(0, 10_000), links=st.integers(1, 12), mass=st.sampled_from([1e-3, 1.0, 1e4]))
-def test_links_that_can_exist_have_a_positive_mass_matrix_everywhere(seed, links, mass):
+def test_consistent_links_have_a_positive_mass_matrix_everywhere(seed, links, mass):
     robot = random_robot(np.random.default_rng(seed), links, tree=True)
     model = standard_model(robot)
     values = true_parameters(model, seed, mass)

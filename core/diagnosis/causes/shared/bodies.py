@@ -22,7 +22,7 @@ def is_body(values: LinkParameters, covariance: SquareMatrix) -> bool:
 
     Its mass has to differ significantly from zero: ten free numbers without mass are no body.
     """
-    if abs(values[MASS]) < ADMISSIBLE.mass_deviations * np.sqrt(max(float(covariance[MASS, MASS]), 0.0)):
+    if abs(values[MASS]) < ADMISSIBLE.significant * np.sqrt(max(float(covariance[MASS, MASS]), 0.0)):
         return False
     deviation = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     unit = values / deviation

@@ -11,6 +11,7 @@ import numpy as np
 
 from ....robot.model import RobotModel
 from ...dataset.dataset import Dataset
+from ...thresholds.causes import ADMISSIBLE
 from ..protocol import Cure, FittedCause, Numbers, Quantity, Scalars, SearchTraits, Setting, Site
 
 NOTHING: tuple[Scalars, ...] = ({},)
@@ -121,6 +122,6 @@ def links_by_joint(robot: RobotModel) -> dict[int, int]:
 def rotor_text(found: Mapping[str, Quantity]) -> str:
     """Write the motor-side inertia of a joint, where it was scanned and is significant."""
     rotor = found.get("motor_inertia")
-    if rotor is None or rotor.value <= 2.0 * rotor.standard_deviation:
+    if rotor is None or rotor.value <= ADMISSIBLE.significant * rotor.standard_deviation:
         return ""
     return f"; motor-side inertia {rotor.text}"

@@ -92,7 +92,7 @@ def test_headings_are_folded_before_a_column_is_left_out_and_the_column_that_is_
         (("prismatic", "revolute"), "rms", ["1 N", "2 N m"]),
     ],
 )
-def test_forces_of_slides_are_told_in_newtons(kinds, heading, cells):
+def test_forces_of_prismatic_joints_are_told_in_newtons(kinds, heading, cells):
     document = {"robot": {"joints": [{"type": kind} for kind in kinds]}}
     rows = [{"joint": 1, "rms_torque": 1.0}, {"joint": 2, "rms_torque": 2.0}]
     column = effort_column(document, "rms", rows, "rms_torque", spare=1)

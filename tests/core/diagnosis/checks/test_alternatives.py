@@ -39,7 +39,7 @@ def compared(
     return [one.cause.id for one in selection.chosen.members], selection, comparisons
 
 
-def test_what_was_hidden_stands_against_all_rivals():
+def test_what_was_hidden_is_preferred_to_all_alternatives():
     names, selection, comparisons = compared(two_waves(), candidate(STRONG), candidate(WEAK))
     assert names == ["strong", "weak"]
     assert selection.steps == ()
@@ -65,7 +65,7 @@ def a_wave_beside_one_that_ends() -> tuple[HypothesisFitter, Hypothesis]:
     return fitter, nothing_found(fitter)
 
 
-def test_a_rival_that_does_not_hold_on_unseen_rows_refutes_nothing():
+def test_an_alternative_that_does_not_hold_on_held_out_rows_refutes_nothing():
     names, _, comparisons = compared(a_wave_beside_one_that_ends(), candidate(STRONG), candidate(WEAK))
     assert names == ["strong", "weak"]
     (ending,) = (one for one in comparisons[1].refuted if one.cause == "ending")
@@ -83,7 +83,7 @@ def test_what_explains_most_is_not_a_stopgap_however_much_better_others_are():
 @pytest.mark.parametrize(
     ("leaves", "rival"), [((), True), (("push",), False)], ids=["is", "is left, and is not"]
 )
-def test_an_event_that_a_cause_leaves_where_it_acts_is_no_rival_to_it(leaves, rival, monkeypatch):
+def test_an_event_that_a_cause_leaves_where_it_acts_is_no_alternative_to_it(leaves, rival, monkeypatch):
     def now_and_then(state, _):
         return [np.abs(np.sin(state.position[:, 1])) > 0.9]
 

@@ -1,4 +1,4 @@
-"""A size makes no sense where the rest of the model cancels it; where its zero lies does not matter."""
+"""A size is implausible where the rest of the model cancels it; where its zero lies does not matter."""
 
 import numpy as np
 import pytest

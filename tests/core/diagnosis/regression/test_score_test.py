@@ -38,7 +38,7 @@ def test_a_score_is_what_fitting_the_candidate_gains(equations):
         np.testing.assert_allclose(one.values, after.values[len(before.values) :], rtol=1e-5, atol=1e-8)
 
 
-def test_no_candidate_promises_more_than_is_left_where_columns_run_nearly_parallel():
+def test_no_candidate_is_predicted_to_explain_more_than_is_left_where_columns_run_nearly_parallel():
     equations, rng = Equations(), np.random.default_rng(4)
     one, other = smooth(rng, equations.count, 2).T
     equations.dataset.torque[:, 0] += 100.0 * other  # 1e6 of each of the two columns, less each other

@@ -40,7 +40,7 @@ def test_a_push_is_told_from_what_a_strong_cause_leaves(always, once, far_less, 
     assert is_masked(fitter, both, 1, less) is expected
 
 
-def test_what_acts_on_another_joint_is_no_rival_though_noise_has_absorbed_most_of_it():
+def test_what_acts_on_another_joint_is_no_alternative_though_noise_has_absorbed_most_of_it():
     """A likelihood ratio is at the noise that a candidate yields, a score at one that has absorbed it."""
 
     def swing(state):

@@ -33,17 +33,17 @@ def scanned(allowed) -> ScoredCandidate:
     return found
 
 
-def test_of_all_scalars_that_nature_allows_a_scan_gives_the_likeliest():
+def test_of_all_admissible_scalars_a_scan_gives_the_likeliest():
     assert scanned({NEAR, TRUE}).candidate.scalars == {"rate": TRUE}
 
 
-def test_scalars_that_nature_allows_go_before_likelier_ones_that_it_does_not():
+def test_admissible_scalars_go_before_likelier_ones_that_are_not():
     found = scanned({NEAR})
     assert found.candidate.scalars == {"rate": NEAR}
     assert found.statistic < scanned({TRUE}).statistic
 
 
-def test_where_nature_allows_none_the_likeliest_scalars_are_given_all_the_same():
+def test_where_none_is_admissible_the_likeliest_scalars_are_given_all_the_same():
     """So that a report can say what would fit if it could be."""
     assert scanned(set()).candidate.scalars == {"rate": TRUE}
 
@@ -93,12 +93,12 @@ def test_a_cause_whose_columns_the_model_has_all_counts_as_one(arm):
     assert freedom(arm, viscous) == 1
 
 
-def test_beneath_a_hypothesis_its_last_member_scores_what_the_hypothesis_found():
+def test_without_it_the_last_member_of_a_hypothesis_scores_what_the_hypothesis_found():
     """Regressing on what is left at the same noise is fitting both at once (Frisch & Waugh 1933)."""
     fitter = fitter_of(measured_arm(WAVE), ())
     member = candidate(made_up("wave", wave, RATES), {"rate": TRUE})
     whole = fitter.fit((member,))
-    (found,) = fitter.scan(fitter.fit_beneath(whole, len(whole.members) - 1), [member])
+    (found,) = fitter.scan(fitter.fit_without(whole, len(whole.members) - 1), [member])
     np.testing.assert_allclose(found.values, whole.fit.values[whole.columns_of(0)], rtol=1e-6)
 
 
@@ -184,7 +184,7 @@ def test_where_other_rows_are_held_out_scans_are_as_on_a_bench_of_its_own_withou
     assert all(one.candidate.key == theirs.candidate.key for one, theirs in pairs)
 
 
-def test_a_belief_that_differs_on_one_joint_ranks_anew_what_is_suspected_of_that_joint_alone():
+def test_an_operating_point_that_differs_on_one_joint_ranks_the_candidates_of_that_joint_alone_anew():
     fitter = fitter_of(measured_arm(WAVE), (Counted(),))
     none = nothing_found(fitter)
     fitter.scan(none)
@@ -197,7 +197,7 @@ def test_a_belief_that_differs_on_one_joint_ranks_anew_what_is_suspected_of_that
     assert built_anew(fitter, none) == 40 + 2
 
 
-def test_the_best_of_a_scan_are_scored_with_the_columns_of_what_is_believed():
+def test_the_best_of_a_scan_are_scored_with_the_columns_of_the_operating_point():
     fitter = fitter_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
     none = nothing_found(fitter)
     before = {one.candidate.key: one.values for one in fitter.scan(none)}
@@ -206,7 +206,7 @@ def test_the_best_of_a_scan_are_scored_with_the_columns_of_what_is_believed():
         np.testing.assert_allclose(one.values, before[one.candidate.key] / 1.005**3, rtol=1e-6)
 
 
-def test_what_is_fitted_has_the_columns_of_what_is_believed_however_little_that_differs():
+def test_what_is_fitted_has_the_columns_of_the_operating_point_however_little_that_differs():
     fitter = fitter_of(measured_arm(WAVE), (BY_ID["torque_gain_nonlinear"],))
     none = nothing_found(fitter)
     (first, *_) = (one.candidate for one in fitter.scan(none))
@@ -224,7 +224,7 @@ def test_a_scan_is_made_once_for_a_hypothesis():
     assert fitter.scan(none) is fitter.scan(none)
 
 
-def test_two_causes_of_one_name_are_both_suspected_at_the_same_joint():
+def test_two_causes_of_one_name_are_both_candidates_at_the_same_joint():
     """As a load that came within the log, and one that is there since the reference."""
     fitter = fitter_of(measured_arm(), (PayloadChange(throughout=True), PayloadChange()))
     last = [one for one in fitter.candidates if one.site == (3,)]

@@ -27,7 +27,7 @@ class Fickle(WaveCause):
 @pytest.mark.parametrize(
     ("share", "kept"), [(0.0, QUICK), (1.0, SLOW)], ids=["takes what it brings", "is worth it"]
 )
-def test_what_is_found_is_believed_unless_that_takes_what_it_brings(share, kept):
+def test_a_search_is_linearised_at_what_is_found_unless_that_takes_what_it_brings(share, kept):
     cause = Fickle()
     fitter = fitter_of(measured_arm(wave_effect({QUICK: 0.3, SLOW: share})), (cause,))
     none = nothing_found(fitter)
@@ -41,7 +41,7 @@ def test_what_is_found_is_believed_unless_that_takes_what_it_brings(share, kept)
     assert (QUICK, SLOW)[int(np.argmax(like))] == kept
 
 
-def test_what_was_swapped_out_is_not_believed_any_more_even_if_the_other_is_left_alone():
+def test_the_operating_point_holds_nothing_that_was_swapped_out_even_if_the_other_is_left_alone():
     nearly = wave_cause("nearly", {QUICK: 1.0, QUICKER: 1.0, OTHER: 0.5})
     causes = (Fickle(), wave_cause("quicker", {QUICKER: 1.0}), nearly)
     fitter = fitter_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.6})), causes)

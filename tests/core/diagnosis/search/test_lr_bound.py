@@ -61,7 +61,7 @@ BENCHES = {
     ],
     ids=["wave", "large_wave", "drift"],
 )
-def test_an_effect_that_the_noise_has_learned_is_foreseen_nearly_as_large_as_its_fit_finds_it(effect, cause):
+def test_an_effect_that_the_noise_model_has_absorbed_is_predicted_nearly_as_large_as_fitted(effect, cause):
     fitter = fitter_of(measured_arm(effect), (cause,))
     none = nothing_found(fitter)
     hidden = fitter.scan(none)[0]
@@ -70,7 +70,7 @@ def test_an_effect_that_the_noise_has_learned_is_foreseen_nearly_as_large_as_its
     assert predicted_likelihood_ratios(fitter, none, [hidden])[0] == pytest.approx(brings, rel=0.15)
 
 
-def test_nothing_brings_more_than_so_many_times_what_is_foreseen_of_it():
+def test_nothing_brings_more_than_so_many_times_what_is_predicted_of_it():
     fitter = fitter_of(measured_arm(sprung), CAUSES)
     none = nothing_found(fitter)
     scans = fitter.scan(none)[:16]
@@ -79,7 +79,7 @@ def test_nothing_brings_more_than_so_many_times_what_is_foreseen_of_it():
     assert np.all(brings < ENTRY.raised * np.maximum(predicted_likelihood_ratios(fitter, none, scans), 5.0))
 
 
-def test_beside_what_is_found_already_only_the_rest_is_foreseen():
+def test_beside_what_is_found_already_only_the_rest_is_predicted():
     fitter = fitter_of(measured_arm(sprung), (BY_ID["spring_compensator"], BY_ID["torque_ripple"]))
     none = nothing_found(fitter)
     spring, ripple = fitter.scan(none)[:2]
@@ -92,7 +92,7 @@ def test_beside_what_is_found_already_only_the_rest_is_foreseen():
 
 @pytest.mark.parametrize("make", BENCHES.values(), ids=BENCHES)
 @pytest.mark.parametrize("effect", [drift, sprung], ids=["drift", "sprung"])
-def test_of_no_effect_nothing_is_foreseen(make, effect):
+def test_of_no_effect_nothing_is_predicted(make, effect):
     fitter = make(effect)
     none = nothing_found(fitter)
     nothing = [replace(one, values=0.0 * one.values) for one in fitter.scan(none)[:8]]
@@ -104,7 +104,7 @@ def test_of_no_effect_nothing_is_foreseen(make, effect):
     [(BENCHES["ordinary noise"], drift), (BENCHES["ordinary noise"], sprung), (BENCHES["a prior"], stiff)],
     ids=["drift under ordinary noise", "sprung under ordinary noise", "stiffer than believed"],
 )
-def test_what_will_bring_most_is_foreseen_to(make, effect):
+def test_what_will_bring_most_is_predicted_to(make, effect):
     fitter = make(effect)
     none = nothing_found(fitter)
     scans = fitter.scan(none)[:16]

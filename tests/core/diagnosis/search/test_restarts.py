@@ -114,7 +114,7 @@ class Flattering(WaveCause):
         return BuiltOn(at.joint, waves, at.operating_point)
 
 
-def test_what_explains_less_once_it_is_believed_makes_way_for_what_it_hid():
+def test_what_explains_less_at_its_own_operating_point_makes_way_for_what_it_masked():
     effect = wave_effect({7.0: 0.6, 4.5: 0.3})
     fitter = fitter_of(measured_arm(effect), (Flattering(), wave_cause("slow", {4.5: 1.0})))
     found = search_stepwise(fitter)
@@ -122,7 +122,7 @@ def test_what_explains_less_once_it_is_believed_makes_way_for_what_it_hid():
     assert named(restart_at_operating_point(found)) == ["flattering", "slow"]
 
 
-def test_where_nothing_was_hid_what_was_found_and_believed_stays():
+def test_where_nothing_was_masked_hypothesis_and_operating_point_stay():
     fitter = fitter_of(measured_arm(wave_effect({7.0: 0.6, 4.5: 0.3})), (Flattering(),))
     found = search_stepwise(fitter)
     assert restart_at_operating_point(found) is found

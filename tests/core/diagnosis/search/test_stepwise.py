@@ -103,7 +103,7 @@ def only_before_the_unseen_rows(state):
     return large + wave_effect({QUICKER: 0.06})(state)
 
 
-def test_a_cause_that_looks_small_beside_one_that_unseen_rows_deny_is_found_all_the_same():
+def test_a_cause_that_looks_small_beside_one_that_held_out_rows_refute_is_found_all_the_same():
     causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
     fitter = fitter_of(measured_arm(only_before_the_unseen_rows), causes)
     none = nothing_found(fitter)
@@ -231,7 +231,7 @@ def test_a_member_is_judged_by_its_own_columns_wherever_it_stands():
     )
 
 
-def test_what_nature_does_not_allow_is_taken_back_by_the_search_and_by_its_rivals():
+def test_what_is_not_admissible_is_dropped_by_the_search_and_among_alternatives():
     """As a size that was possible beside another cause, and is not once that one was given up."""
 
     def columns(state, scalars):
@@ -301,7 +301,7 @@ def test_of_two_causes_with_the_same_column_one_is_named_and_the_other_given_as_
     assert compare_member(found, 0).margin == pytest.approx(0.0, abs=0.3)
 
 
-def test_a_rival_that_explains_little_is_not_equally_good():
+def test_an_alternative_that_explains_little_is_not_equally_good():
     found = twins()
     assert "far" not in {rival.cause for rival in compare_member(found, 0).ambiguous}
 

@@ -90,7 +90,7 @@ def test_a_recording_without_joint_states_is_refused(write, tmp_path):
 
 
 @WRITERS
-def test_a_recording_cut_short_or_spoilt_is_refused_or_still_a_log(write, tmp_path):
+def test_a_recording_cut_short_or_corrupted_is_refused_or_still_a_log(write, tmp_path):
     path = write(tmp_path, COLUMNS, JOINTS)
     whole, random = path.read_bytes(), np.random.default_rng(1)
     refused = 0

@@ -175,7 +175,7 @@ def test_a_joint_whose_interval_holds_zero_is_not_said_to_have_gained():
     assert "on joint 2 (95 %" not in text
 
 
-def test_a_finding_is_told_with_its_size_its_reasons_and_its_rivals():
+def test_a_finding_is_told_with_its_size_its_reasons_and_its_alternatives():
     text = Page(compose_page(diagnosed())).text
     assert "Load-dependent friction on joint 1: 0.07 N m per N m." in text
     assert "load coefficient 0.0700 ± 0.0020 2.9 %" in text
@@ -251,14 +251,14 @@ def test_a_gain_is_marked_as_real_only_where_its_interval_leaves_zero_out():
     assert page.count("<span>50 %</span>") == 1  # joint 2 in motion
 
 
-def test_a_cure_that_gains_nothing_sure_is_said_to_gain_nothing():
+def test_a_correction_without_significant_gain_is_reported_without_gain():
     weak = diagnosed()["diagnosis"]["gain"][1:]
     text = Page(compose_page(diagnosed(gain=weak))).text
     assert "(up to 9.50 Hz), the correction gives no significant improvement on held-out data." in text
     assert "The correction reduces" not in text
 
 
-def test_what_only_the_raw_samples_show_is_said_not_to_be_cured():
+def test_what_only_the_raw_samples_show_is_reported_as_not_corrected():
     raw = {"statement": "Raw", "statistic": "raw check", "value": 6.3}
     found = finding(gain=None, curve=None, evidence=[raw], ambiguous_with=[], refuted=[])
     text = Page(compose_page(diagnosed(findings=[found], gain=[]))).text
@@ -324,7 +324,7 @@ def test_the_page_tells_data_defects_doubts_and_origin():
         assert told in text, told
 
 
-def test_an_identification_is_told_with_its_error_on_unseen_data_and_whether_the_robot_can_exist():
+def test_an_identification_is_told_with_its_error_on_held_out_data_and_whether_the_robot_is_consistent():
     text = Page(compose_page(identified())).text
     assert "bench arm: 12 base parameters identified, physically consistent; torque error 2.8 %" in text
     assert "on held-out data" in text

@@ -1,0 +1,50 @@
+"""Lower what a diagnosis claims while robot and log do not fit each other.
+
+A cause is a small correction of a model that fits. Beside a conflict that is open, or a model that leaves
+more than half of a joint's torque, the likeliest small correction is seldom the reason.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from ..result import Diagnosis, Finding
+from ..thresholds.checks import SIZE, VERDICT
+
+
+def with_reservations(found: Diagnosis, *, open_conflict: bool, doubted: bool) -> Diagnosis:
+    """Limit confidences and verdict.
+
+    Parameters
+    ----------
+    open_conflict
+        Whether robot and logs disagree in something that was not corrected.
+    doubted
+        Whether the identification contradicts the model, the logs or itself.
+    """
+    failed = open_conflict or any(_joints_not_fitted(found))
+    findings = tuple(as_doubtful(finding) if failed else finding for finding in found.findings)
+    claims_nothing = found.verdict == "nothing_found" and (failed or doubted)
+    return replace(
+        found,
+        findings=findings,
+        verdict="unexplained" if claims_nothing else found.verdict,
+        # What a model shows is told at its best fit: one that fails says nothing of it.
+        not_identifiable=() if failed else found.not_identifiable,
+    )
+
+
+def as_doubtful(finding: Finding) -> Finding:
+    """Give a finding no more confidence than a doubtful one may have."""
+    return replace(finding, confidence=min(finding.confidence, SIZE.doubtful))
+
+
+def _joints_not_fitted(found: Diagnosis) -> Iterator[int]:
+    """Give the joints that keep more than half of their RMS torque, and not as noise."""
+    structured = {share.joint for share in found.predictable if share.interval[0] > VERDICT.unexplained_share}
+    for joint in structured:
+        usable = found.dataset.usable[:, joint - 1]
+        left = np.sum(found.residual_after[usable, joint - 1] ** 2)
+        if left > SIZE.half**2 * np.sum(found.dataset.torque[usable, joint - 1] ** 2):
+            yield joint

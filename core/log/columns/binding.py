@@ -1,0 +1,99 @@
+"""Bind a channel to its columns: units, and what turns a number into SI."""
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from ...arrays import JointSeries, Series
+from ..channels import TIME, UNITS, Unit
+
+ROUNDING = 1e-9
+"""Relative error that unit and scale may have from being multiplied and divided."""
+
+
+@dataclass(frozen=True)
+class Binding:
+    """Bind a channel to its columns, with their units and what turns each into SI: `gain * value + bias`."""
+
+    name: str
+    columns: tuple[str, ...]
+    gain: tuple[float, ...]
+    bias: tuple[float, ...]
+    units: tuple[str, ...] = ()
+
+    def convert(self, block: Series) -> JointSeries:
+        """Turn the channel's columns (columns by rows) into SI (rows by joints)."""
+        values = np.array(
+            block.T, order="C"
+        )  # a copy: the block belongs to its source, which may give it again
+        if any(gain != 1.0 for gain in self.gain):
+            values *= np.array(self.gain)
+        if any(self.bias):
+            values += np.array(self.bias)
+        return values
+
+    def reassigned(
+        self, source: tuple[int, ...], factor: tuple[float, ...], offset: tuple[float, ...]
+    ) -> "Binding":
+        """Give every joint another column, multiplied by a factor, with an offset added in SI."""
+        return Binding(
+            self.name,
+            tuple(self.columns[joint] for joint in source),
+            tuple(self.gain[joint] * own for joint, own in zip(source, factor, strict=True)),
+            tuple(
+                self.bias[joint] * own + add for joint, own, add in zip(source, factor, offset, strict=True)
+            ),
+            tuple(self.units[joint] for joint in source) if self.units else (),
+        )
+
+    def as_mapping(self) -> dict[str, object]:
+        """Write the binding as a mapping says it: columns, unit, and scale and offset where they are needed.
+
+        Examples
+        --------
+        >>> Binding("torque", ("m1",), (-0.001,), (0.0,), ("mN m",)).as_mapping()
+        {'columns': ['m1'], 'unit': ['mN m'], 'scale': [-1.0]}
+
+        A factor that is another unit's is written as this unit.
+
+        >>> Binding("position", ("q1",), (np.pi / 180.0,), (0.0,), ("rad",)).as_mapping()
+        {'columns': ['q1'], 'unit': ['deg']}
+        """
+        if self.name == TIME:
+            return dict(zip(("column", "unit"), (*self.columns, *self.units), strict=False))
+        declared = self.units or (next(iter(UNITS[self.name])),) * len(self.columns)
+        units = list(map(partial(_unit_of, self.name), self.gain, declared))
+        scale = [_rounded(gain / unit.factor) for gain, unit in zip(self.gain, units, strict=True)]
+        offset = [bias / unit.factor - unit.offset for bias, unit in zip(self.bias, units, strict=True)]
+        mapping: dict[str, object] = {"columns": list(self.columns), "unit": [unit.name for unit in units]}
+        if {*scale} != {1.0}:
+            mapping["scale"] = scale
+        if any(offset):
+            mapping["offset"] = offset
+        return mapping
+
+
+def _unit_of(channel: str, gain: float, name: str) -> Unit:
+    """Give the unit of which a gain is the factor, but for its sign; else the declared one."""
+    declared = UNITS[channel][name]
+    if _is_affine(declared) or _is_factor(gain, declared):
+        return declared
+    for unit in UNITS[channel].values():
+        if unit.prismatic == declared.prismatic and not _is_affine(unit) and _is_factor(gain, unit):
+            return unit
+    return declared
+
+
+def _is_affine(unit: Unit) -> bool:
+    """Tell whether more than a factor leads to SI, or whether a log has to give it."""
+    return bool(unit.offset) or unit.needs_scale
+
+
+def _is_factor(gain: float, unit: Unit) -> bool:
+    return bool(np.isclose(abs(gain), unit.factor, rtol=ROUNDING, atol=0.0))
+
+
+def _rounded(scale: float) -> float:
+    """Take a scale that is one but for a rounding error for one."""
+    return float(np.rint(scale)) if abs(abs(scale) - 1.0) < ROUNDING else scale

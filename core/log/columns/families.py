@@ -1,0 +1,168 @@
+"""Gather columns that belong together: one quantity of all joints, by what their names have in common.
+
+Most recorders number the joints, others name them. What is left of a name without the joint tells the
+quantity, and the arm where there are several.
+"""
+
+import re
+from collections.abc import Collection, Sequence
+
+from ..channels import JOINT_CHANNELS, REFERENCE_WORDS
+
+_CHANNEL_WORDS = frozenset(word for channel in JOINT_CHANNELS for word in channel.words) - {"joint", "joints"}
+_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
+_BRACKETS = re.compile(r"[\[({<][^\[\](){}<>]*[A-Za-z%°][^\[\](){}<>]*[\])}>]")
+_INDEX = re.compile(r"\d+")
+_GERMAN = {
+    "zeit": "time",
+    "zeitstempel": "timestamp",
+    "lage": "position",
+    "winkel": "angle",
+    "geschwindigkeit": "velocity",
+    "drehzahl": "speed",
+    "drehmoment": "torque",
+    "kraft": "force",
+    "strom": "current",
+    "temperatur": "temperature",
+    "soll": "ref",
+}
+"""German words of controllers' exports, and the English ones that tell the same channel."""
+_GERMAN_FIRST = re.compile(r"(ist|soll|motor)([a-z]{4,})")
+"""First part of a German compound: actual, asked for, of the motor."""
+
+
+_ALONG = (
+    "base", "waist", "torso", "shoulder", "upper", "upperarm", "elbow", "lower", "lowerarm", "forearm",
+    "wrist", "hand", "flange", "tool", "gripper", "finger",
+)  # fmt: skip  # a table
+"""Parts of an arm from its base on, by which its joints are called."""
+_BEFORE = ("pan", "yaw", "lift", "pitch", "flex")
+"""Of two joints of one part, the one about the vertical comes first."""
+
+
+def name_words(name: str) -> set[str]:
+    """Cut a name at its signs, numbers and capitals; what stands in brackets is a unit and no word of it.
+
+    Examples
+    --------
+    >>> sorted(name_words("Joint1_Pos [deg]"))
+    ['joint', 'pos']
+    >>> sorted(name_words("Sollwinkel_A1")), sorted(name_words("Motorstrom 1"))
+    (['a', 'angle', 'ref'], ['current', 'motor'])
+    """
+    words = (word.lower() for word in _WORD.findall(_BRACKETS.sub(" ", name)))
+    parts = (part for word in words for part in _parts(word))
+    return {_GERMAN.get(part, part) for part in parts}
+
+
+def _parts(word: str) -> tuple[str, ...]:
+    """Part a German compound that tells what is asked for or measured."""
+    compound = _GERMAN_FIRST.fullmatch(word)
+    return (word,) if compound is None else compound.groups()
+
+
+def numbered_families(names: Sequence[str]) -> dict[str, list[str]]:
+    """Gather columns that differ in their last number only, in the order of that number.
+
+    Examples
+    --------
+    >>> numbered_families(["t", "q2", "q1"])
+    {'q ': ['q1', 'q2']}
+    """
+    families: dict[str, list[tuple[int, str]]] = {}
+    for name in names:
+        numbers = list(_INDEX.finditer(_BRACKETS.sub(lambda found: " " * len(found[0]), name)))
+        if numbers:
+            last = numbers[-1]
+            stem = f"{name[: last.start()]} {name[last.end() :]}"
+            families.setdefault(stem, []).append((int(last.group()), name))
+    return {stem: [name for _, name in sorted(found)] for stem, found in families.items()}
+
+
+def named_families(names: Sequence[str]) -> dict[str, list[str]]:
+    """Gather columns that say the same quantity of joints which have names, in the order of the file.
+
+    Examples
+    --------
+    >>> named_families(["t", "elbow_pos", "wrist_pos", "elbow_eff"])
+    {'pos': ['elbow_pos', 'wrist_pos'], 'eff': ['elbow_eff']}
+    """
+    families: dict[str, list[str]] = {}
+    for name in names:
+        words = name_words(name)
+        told = sorted(words & (_CHANNEL_WORDS | REFERENCE_WORDS))
+        if told and words - set(told):
+            families.setdefault(" ".join(told), []).append(name)
+    return families
+
+
+def tells_a_part(stem: str) -> bool:
+    """Tell whether a name calls a joint by its part of the arm, such as its wrist.
+
+    Examples
+    --------
+    >>> tells_a_part("position.wrist_ _joint"), tells_a_part("arm pos ")
+    (True, False)
+    """
+    return not name_words(stem).isdisjoint(_ALONG)
+
+
+def along_arm(names: Sequence[str]) -> list[str]:
+    """Put names in the order of an arm from its base on, where all tell a part of it; else as they come.
+
+    Recorders often write joints in the order of the alphabet.
+
+    Examples
+    --------
+    >>> along_arm(["elbow_pos", "shoulder_lift_pos", "shoulder_pan_pos", "wrist_2_pos", "wrist_1_pos"])
+    ['shoulder_pan_pos', 'shoulder_lift_pos', 'elbow_pos', 'wrist_1_pos', 'wrist_2_pos']
+    """
+    if not all(map(tells_a_part, names)):
+        return list(names)
+    return sorted(names, key=_place)
+
+
+def _place(name: str) -> tuple[int, int, int]:
+    words, numbers = name_words(name), _INDEX.findall(name)
+    part = next(place for place, word in enumerate(_ALONG) if word in words)
+    way = next((place for place, word in enumerate(_BEFORE) if word in words), len(_BEFORE))
+    return part, way, int(numbers[-1]) if numbers else 0
+
+
+def single_families(names: Sequence[str]) -> dict[str, list[str]]:
+    """Give the columns of one joint, which need no number; empty where two tell the same channel.
+
+    Examples
+    --------
+    >>> single_families(["t", "angle", "torque"])
+    {'angle': ['angle'], 'torque': ['torque']}
+    """
+    told = {name: channel for name in names if (channel := channel_of(name, ())) is not None}
+    unclear = len(set(told.values())) < len(told)
+    return {} if unclear else {name: [name] for name in told}
+
+
+def arm_of(stem: str) -> frozenset[str]:
+    """Give the words of a name that are neither a quantity's nor a reference's: those of an arm, if any.
+
+    Examples
+    --------
+    >>> arm_of("left_q ")
+    frozenset({'left'})
+    """
+    return frozenset(
+        name_words(stem) - _CHANNEL_WORDS - REFERENCE_WORDS - {"joint", "joints", "actual", "measured"}
+    )
+
+
+def channel_of(stem: str, known: Collection[str]) -> str | None:
+    """Find the channel of a name; a reference stands for what was measured where nothing else does."""
+    words = name_words(stem)
+    by_trust = sorted(JOINT_CHANNELS, key=lambda channel: channel.name == "position")  # "joint" says least
+    own = list(filter(lambda channel: not words.isdisjoint(channel.words), by_trust))
+    measured = next((channel for channel in own if channel.need != "reference"), None)
+    if measured is None:
+        return own[0].name if own else None
+    if not words & REFERENCE_WORDS or (measured.need != "optional" and measured.name not in known):
+        return measured.name
+    return next((channel.name for channel in JOINT_CHANNELS if channel.reference_to == measured.name), None)

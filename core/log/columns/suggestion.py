@@ -1,0 +1,250 @@
+"""Suggest a mapping for a file whose columns have other names; the user confirms it.
+
+A profile that fits comes first. Otherwise columns that differ in a number only, or in a joint's name, are
+taken for the joints of one channel. Words in the names give the channel and, where they say one, the unit;
+else sizes do. A suggestion is shown, never applied.
+"""
+
+from collections.abc import Mapping, Sequence
+from itertools import chain
+
+import numpy as np
+
+from ...errors import LogError
+from ..channels import CHANNELS, EFFORTS, REFERENCE_WORDS, TIME, UNITS
+from ..formats.table import Table
+from ..model import Defect
+from .binding import Binding
+from .blocks import unnamed_channels
+from .families import (
+    along_arm,
+    arm_of,
+    channel_of,
+    name_words,
+    named_families,
+    numbered_families,
+    single_families,
+    tells_a_part,
+)
+from .layout import Layout
+from .mapping import RATE
+from .named_units import unit_called, unit_in_name
+from .plausible_units import readings_by_column
+from .profiles import PROFILE, PROFILES, fill_in
+
+UNKNOWN = "?"
+MOTOR_SIDE = ("position", "velocity", "torque")
+IMPLAUSIBLE = "implausible_unit"
+
+
+def suggest_mapping(table: Table) -> dict[str, object] | None:
+    """Give a mapping that fits the names of the columns; None where the names are not enough.
+
+    Units are those that names or the file say, else the most plausible by size, or `UNKNOWN` where no unit
+    fits the size; so is the rate of a log without a clock, and what one count or one per cent is.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from veritorque.core.log.formats.table import MemoryTable
+    >>> columns = {"t": 0.004 * np.arange(9.0), "pos1": np.full(9, 90.0), "trq1": np.full(9, 2.5)}
+    >>> suggest_mapping(MemoryTable(columns))["position"]
+    {'columns': ['pos1'], 'unit': 'deg'}
+    """
+    return next(iter(suggest_mappings(table)), None)
+
+
+def suggest_mappings(table: Table) -> list[dict[str, object]]:
+    """Give the mapping that fits the names of the columns, or one for each arm that the file holds."""
+    profile = _profile(table.names)
+    if profile is not None:
+        return [{PROFILE: profile} | _own_clock(profile, table) | _open_units(profile, table)]
+    unnamed = unnamed_channels(table)
+    whole = [unnamed] if unnamed else _named_channels(table.names)
+    return [_clock(channels, table) | _requests(channels, table) for channels in whole]
+
+
+def _named_channels(names: Sequence[str]) -> list[dict[str, list[str]]]:
+    """Give the columns of every channel, for each arm that the names tell of."""
+    numbered = numbered_families(names)
+    arms = [_channels(own) for own in _by_arm(numbered)]
+    whole = [channels for channels in arms if _is_whole(channels)]
+    if len(whole) > 1:
+        return whole
+    by_part = {stem: along_arm(columns) for stem, columns in named_families(names).items()}
+    of_one = {stem: columns for stem, columns in numbered.items() if not tells_a_part(stem)}
+    found = map(_channels, (of_one, by_part, numbered, single_families(names)))
+    return [channels for channels in found if _is_whole(channels)][:1]
+
+
+def explained(error: LogError, table: Table) -> LogError:
+    """Say of a file that holds positions alone, or efforts alone, that the others are to be joined to it.
+
+    A clock of another name would be asked for first, and be of no use.
+    """
+    half = _half(table)
+    if half is None or error.evidence.get("looked_for") != [TIME]:
+        return error
+    there, absent = half
+    return LogError(
+        f"the file holds {there}, and no {absent}",
+        evidence=error.evidence,
+        remedy=f"join it with the file of the {absent} of the same run: veritorque logs join THIS OTHER "
+        "-o run.parquet; where they are in this file, map their columns",
+    )
+
+
+def _half(table: Table) -> tuple[str, str] | None:
+    """Tell what a file holds and what it lacks; None where neither or both are told by its names."""
+    families = numbered_families(table.names) | single_families(table.names)
+    told = {channel for stem in families if (channel := channel_of(stem, ())) is not None}
+    recorded = (fill_in({PROFILE: name}, table.names) for name in PROFILES if _is_ordered(name, table.names))
+    told |= {channel for filled in recorded if isinstance(filled, dict) for channel in filled}
+    efforts = {*EFFORTS, "torque_ref"} & told
+    if bool(efforts) == ("position" in told):
+        return None
+    return ("positions", "torque or current") if not efforts else ("torque or current", "positions")
+
+
+def _by_arm(families: Mapping[str, list[str]]) -> list[dict[str, list[str]]]:
+    """Part families by the words of their names that tell no quantity."""
+    arms: dict[frozenset[str], dict[str, list[str]]] = {}
+    for stem, columns in families.items():
+        arms.setdefault(arm_of(stem), {})[stem] = columns
+    return list(arms.values())
+
+
+def _requests(channels: Mapping[str, list[str]], table: Table) -> dict[str, object]:
+    return {
+        name: {"columns": channels[name]} | _declared(name, table, channels[name][0])
+        for name in CHANNELS
+        if name in channels and name != TIME
+    }
+
+
+def _declared(channel: str, table: Table, column: str) -> dict[str, object]:
+    """Give a column's unit, and leave open what one of it is where the mapping has to say so.
+
+    What is named after the motor is on its side of a gear, whose ratio only the user knows.
+    """
+    if channel in MOTOR_SIDE and "motor" in name_words(column):
+        return {"unit": _said_unit(channel, table, column) or next(iter(UNITS[channel])), "scale": UNKNOWN}
+    declared: dict[str, object] = {"unit": _unit(channel, table, column)}
+    unit = UNITS[channel].get(str(declared["unit"]))
+    return declared | ({"scale": UNKNOWN} if unit is not None and unit.needs_scale else {})
+
+
+def _open_units(profile: str, table: Table) -> dict[str, object]:
+    """Give the units that the recorder does not fix."""
+    filled = fill_in({PROFILE: profile}, table.names)
+    requests = filled.items() if isinstance(filled, dict) else ()
+    return {
+        name: _declared(name, table, request["columns"][0])
+        for name, request in requests
+        if isinstance(request, dict) and "columns" in request and "unit" not in request
+    }
+
+
+def _clock(channels: Mapping[str, Sequence[str]], table: Table) -> dict[str, object]:
+    """Give the clock by its name, else the first column that only grows, else leave the rate open."""
+    words = set(CHANNELS[TIME].words)
+    told = (name for name in table.names if name_words(name) & words and channel_of(name, ()) is None)
+    stamps = next(iter(channels.get(TIME, ())), None) or next(told, None) or _growing(channels, table)
+    return (
+        {RATE: UNKNOWN} if stamps is None else {TIME: {"column": stamps, "unit": _unit(TIME, table, stamps)}}
+    )
+
+
+def _growing(channels: Mapping[str, Sequence[str]], table: Table) -> str | None:
+    """Find a column that grows from row to row as a clock does, and does not only count the rows."""
+    used = set(chain(*channels.values()))
+    for name in table.names:
+        if name in used or name in table.texts or not readings_by_column(TIME, [name], table):
+            continue
+        steps = np.diff(next(iter(table.batches([name])))[0])
+        if np.all(steps > 0.0) and np.any(steps != 1.0):
+            return name
+    return None
+
+
+def suggest_units(table: Table, layout: Layout, defects: Sequence[Defect]) -> dict[str, object] | None:
+    """Give the mapping by which channels of implausible size would be of a plausible one; None if none is."""
+    channels = {channel.name: channel for channel in filter(None, (layout.time, *layout.channels))}
+    mapping: dict[str, object] = {}
+    for defect in defects:
+        channel = channels.get(defect.channel)
+        if defect.kind != IMPLAUSIBLE or channel is None or channel.name in mapping:
+            continue
+        if request := _in_plausible_unit(channel, defect.joint, table):
+            mapping[channel.name] = request
+    return mapping or None
+
+
+def _in_plausible_unit(channel: Binding, joint: int | None, table: Table) -> dict[str, object]:
+    """Give the request for a channel in the unit that fits a joint's column; empty where no other fits."""
+    declared = _declared(channel.name, table, channel.columns[(joint or 1) - 1])
+    if declared["unit"] in (UNKNOWN, *channel.units):
+        return {}
+    if channel.name == TIME:
+        return {"column": channel.columns[0]} | declared
+    return {"columns": channel.columns} | declared
+
+
+def _channels(families: Mapping[str, list[str]]) -> dict[str, list[str]]:
+    """Choose columns for every channel; measured ones first, then references that are one per joint."""
+    found: dict[str, list[str]] = {}
+    for stem in sorted(families, key=lambda name: bool(name_words(name) & REFERENCE_WORDS)):
+        channel, columns = channel_of(stem, found), families[stem]
+        if channel is None or channel in found:
+            continue
+        if CHANNELS[channel].need != "reference" or len(columns) == len(found.get("position", ())):
+            found[channel] = columns
+    return found
+
+
+def _is_whole(channels: Mapping[str, list[str]]) -> bool:
+    """Tell whether position and an effort are there, with one column per joint each."""
+    joints = {len(columns) for columns in channels.values()}
+    return "position" in channels and bool(channels.keys() & set(EFFORTS)) and len(joints) == 1
+
+
+def _profile(names: Sequence[str]) -> str | None:
+    """Find a recorder whose names these are; the units that it leaves open are asked for when it is tried."""
+    for name in PROFILES:
+        if not _is_ordered(name, names):
+            continue
+        filled = fill_in({PROFILE: name}, names)
+        if isinstance(filled, dict) and "position" in filled and not filled.keys().isdisjoint(EFFORTS):
+            return name
+    return None
+
+
+def _is_ordered(profile: str, names: Sequence[str]) -> bool:
+    """Tell whether the order of a profile's joints is known, which would have to be given as well."""
+    try:
+        fill_in({PROFILE: profile}, names)
+    except LogError:
+        return False
+    return True
+
+
+def _own_clock(profile: str, table: Table) -> dict[str, object]:
+    """Give the clock where the profile leaves its unit open, or its steps are of another size."""
+    filled = fill_in({PROFILE: profile}, table.names)
+    clock = filled.get(TIME) if isinstance(filled, dict) else None
+    if not isinstance(clock, dict):
+        return {}
+    unit = _unit(TIME, table, clock["column"])
+    return {} if unit in (UNKNOWN, clock.get("unit")) else {TIME: clock | {"unit": unit}}
+
+
+def _unit(channel: str, table: Table, column: str) -> str:
+    said = _said_unit(channel, table, column)
+    if said is not None:
+        return said
+    plausible = readings_by_column(channel, [column], table)
+    return plausible[column][0].split(":")[0] if plausible else UNKNOWN
+
+
+def _said_unit(channel: str, table: Table, column: str) -> str | None:
+    return unit_called(channel, table.units.get(column, "")) or unit_in_name(channel, column)

@@ -1,0 +1,1 @@
+"""Read a URDF: in come the bytes of a file, out goes a `RobotModel`."""
