@@ -104,5 +104,13 @@ class Ratio:
     """Logarithm below which a factor is a cause with a size, and no conflict."""
 
 
+@dataclass(frozen=True)
+class Unit:
+    """Ask for the unit of a position. Set by hand."""
+
+    least_span: float = 0.1
+    """Radians that a joint has to move at least in the unit that is tried: what hardly moves fits well."""
+
+
 DOUBT, TRIAL, DECISION, MOUNTING = Doubt(), Trial(), Decision(), Mounting()
-TIME_BASE, LENGTH, RATIO = TimeBase(), Length(), Ratio()
+TIME_BASE, LENGTH, RATIO, UNIT = TimeBase(), Length(), Ratio(), Unit()

@@ -7,6 +7,7 @@ import numpy as np
 from ...log.defects.plausibility import LARGEST_SPAN
 from ..conflict import Conflict, Hypothesis
 from ..setup import Setup
+from ..thresholds import UNIT
 from ..trial import Trials
 
 _TORQUE_UNITS = {"mN m": 1e-3, "kN m": 1e3}
@@ -20,31 +21,33 @@ class Unit(Conflict):
     title = "Unit of a channel"
 
     def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
-        """Try the usual units, of all positions and channel by channel.
+        """Try the usual units, of all positions and channel by channel, in which a joint moves as joints do.
 
         A common factor on all torques is another body's, and none that a log could show.
         """
         position, torque = setup.assignment.position, setup.assignment.torque
         turning = setup.revolute()
         span = np.ptp(position.of(trials.samples.position, rate=True), axis=0)
-        wide = [joint for joint in turning if span[joint] > LARGEST_SPAN]
+        expected = {joint for joint in turning if span[joint] > LARGEST_SPAN}
         for unit, factor in _POSITION_UNITS.items() if len(turning) > 1 else ():
-            yield Hypothesis(
-                self.name,
-                tuple(joint + 1 for joint in turning),
-                "position",
-                setup.with_position(position.scaled(factor, *turning)),
-                f"the positions of all joints are in {unit}",
-                f"declare all positions in {unit}",
-                expected=factor < 1.0 and bool(wide),
-            )
+            if UNIT.least_span <= factor * np.max(span[list(turning)]) <= LARGEST_SPAN:
+                yield Hypothesis(
+                    self.name,
+                    tuple(joint + 1 for joint in turning),
+                    "position",
+                    setup.with_position(position.scaled(factor, *turning)),
+                    f"the positions of all joints are in {unit}",
+                    f"declare all positions in {unit}",
+                    expected=bool(expected),
+                )
         for joint in range(setup.joints):
             for unit, factor in _TORQUE_UNITS.items():
                 yield self._of(joint, "torque", unit, setup.with_torque(torque.scaled(factor, joint)))
         for joint in turning:
             for unit, factor in _POSITION_UNITS.items():
-                changed = setup.with_position(position.scaled(factor, joint))
-                yield self._of(joint, "position", unit, changed, expected=factor < 1.0 and joint in wide)
+                if UNIT.least_span <= factor * span[joint] <= LARGEST_SPAN:
+                    changed = setup.with_position(position.scaled(factor, joint))
+                    yield self._of(joint, "position", unit, changed, expected=joint in expected)
 
     def _of(self, joint: int, channel: str, unit: str, setup: Setup, *, expected: bool = False) -> Hypothesis:
         return Hypothesis(
