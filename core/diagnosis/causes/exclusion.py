@@ -80,6 +80,7 @@ EXCLUSIONS: tuple[Exclusion, ...] = (
         "a drive at its limit applies the limit, and the motion shows what was applied",
     ),
     Exclusion("torque_saturation", "the command is below the torque applied", "a limit only takes away"),
+    Exclusion("torque_saturation", "the log's torque never exceeds the limit", "the log keeps the command"),
     Exclusion(
         "time_delay",
         f"it exceeds {1e3 * ADMISSIBLE.time_delay:g} ms",

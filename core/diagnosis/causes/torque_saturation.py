@@ -42,7 +42,13 @@ class TorqueSaturation(OwnJointCause):
         return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
     def contradicted(self, at: Setting, solved: FittedCause) -> bool:
-        """Refuse a limit that the motion exceeds: while a drive is limited it applies the limit."""
+        """Refuse a limit that the motion exceeds, and one that the log, which keeps the command, never reaches.
+
+        While a drive is limited it applies the limit.
+        """
+        commanded = np.abs(at.dataset.torque[:, at.joint - 1]).max()
+        if commanded <= solved.scalars["limit"]:
+            return True
         applied = np.abs(at.operating_point.applied(at.dataset.state)[:, at.joint - 1])
         reached = float(np.quantile(applied, ADMISSIBLE.saturation_quantile))
         return reached > (1.0 + ADMISSIBLE.saturation_excess) * solved.scalars["limit"]

@@ -65,8 +65,10 @@ def test_a_gain_can_be_shown_where_other_joints_know_the_load():
     assert scans(0.4)["torque_gain", (2,)].identifiable
 
 
-@pytest.mark.parametrize(("share", "excluded"), [(0.6, True), (0.75, True), (0.9, False), (1.0, False)])
-def test_a_limit_that_the_motion_exceeds_is_none(share, excluded):
+@pytest.mark.parametrize(
+    ("share", "excluded"), [(0.6, True), (0.75, True), (0.9, False), (0.98, False), (1.1, True)]
+)
+def test_a_limit_that_the_motion_exceeds_or_the_log_never_reaches_is_none(share, excluded):
     look = scene(0.4)
     applied = look.operating_point.applied(look.dataset.state)[:, 1]
     limit = share * float(np.abs(applied).max())
