@@ -25,7 +25,7 @@ class Regression:
     """What made its answer wrong."""
     order: Order
     exact: bool = False
-    """Whether the cause has to be the finding's own name, and not one of its rivals'."""
+    """Whether the cause has to be the finding's own name, and not one of its alternatives'."""
     swaps: bool = False
     """Whether the search has to swap causes, each there and back at most."""
     alone: bool = True

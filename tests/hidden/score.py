@@ -1,6 +1,6 @@
 """Score answers against what was hidden: named, exact, missed, extra, size, confidence, with intervals.
 
-A cause is named when a finding gives it on its joint, by its own name or among the rivals that the finding
+A cause is named when a finding gives it on its joint, by its own name or among the alternatives that it
 says it cannot tell apart; it is exact when it is the finding's own name and joint. Sources: Clopper &
 Pearson, Biometrika 26 (1934), for the intervals; Brier, Monthly Weather Review 78 (1950), for the confidence.
 """
@@ -48,8 +48,8 @@ class Score:
 
     `extra` are the findings that nothing hidden accounts for; `confidences` pairs every finding's confidence
     with whether it was right. For a foreign effect `unexplained` says that it was called so or that only
-    rivals were named, and `confidently_wrong` that a single name was given with confidence. `seconds` is the
-    CPU time that the answer took.
+    alternatives were named, and `confidently_wrong` that a single name was given with confidence. `seconds`
+    is the CPU time that the answer took.
     """
 
     kind: str
@@ -108,7 +108,7 @@ def _names(finding: Finding, truth: Truth) -> bool:
 
 
 def _is(given: Finding, truth: Truth) -> bool:
-    """Tell whether a finding or a rival is of this cause and, where the cause is of joints, on them."""
+    """Tell whether a finding or a alternative is of this cause and, where the cause is of joints, on them."""
     in_place = not truth.local or bool(set(given["joints"]) & set(truth.joints))
     return given["cause"] == truth.cause and in_place
 

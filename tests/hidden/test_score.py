@@ -25,7 +25,7 @@ DELAY = replace(
 )
 
 
-def finding(cause, joints, *, confidence=0.95, rivals=(), elsewhere=(), parameters=()):
+def finding(cause, joints, *, confidence=0.95, alternatives=(), elsewhere=(), parameters=()):
     named = [
         {"name": name, "joint": joint, "unit": "", "value": value, "standard_deviation": deviation}
         for name, joint, value, deviation in parameters
@@ -36,8 +36,13 @@ def finding(cause, joints, *, confidence=0.95, rivals=(), elsewhere=(), paramete
         "confidence": confidence,
         "parameters": named,
         "ambiguous_with": [
-            {"cause": rival, "joints": list(elsewhere or joints), "why": "", "separating_experiment": ""}
-            for rival in rivals
+            {
+                "cause": alternative,
+                "joints": list(elsewhere or joints),
+                "why": "",
+                "separating_experiment": "",
+            }
+            for alternative in alternatives
         ],
     }
 
@@ -66,7 +71,7 @@ def test_the_right_cause_on_another_joint_is_missed_and_extra():
 
 
 def test_a_declared_alternative_names_a_cause_but_not_exactly():
-    found = finding("friction_presliding", [2], rivals=["friction_stribeck"])
+    found = finding("friction_presliding", [2], alternatives=["friction_stribeck"])
     one = scored(diagnosis(found), STRIBECK)
     assert (one.answers[0].named, one.answers[0].exact) == (True, False)
     assert one.answers[0].given == "friction_presliding"
@@ -74,11 +79,11 @@ def test_a_declared_alternative_names_a_cause_but_not_exactly():
 
 
 def test_an_alternative_names_a_cause_where_it_acts_and_not_where_the_finding_does():
-    found = finding("friction_stribeck", [1], rivals=["friction_stribeck"], elsewhere=[2])
+    found = finding("friction_stribeck", [1], alternatives=["friction_stribeck"], elsewhere=[2])
     one = scored(diagnosis(found), STRIBECK)
     assert (one.answers[0].named, one.answers[0].exact, one.answers[0].sizes) == (True, False, ())
     assert one.extra == ()
-    found = finding("friction_presliding", [2], rivals=["friction_stribeck"], elsewhere=[1])
+    found = finding("friction_presliding", [2], alternatives=["friction_stribeck"], elsewhere=[1])
     assert not scored(diagnosis(found), STRIBECK).answers[0].named
 
 
@@ -134,7 +139,7 @@ def test_on_a_clean_log_every_finding_is_extra():
 def test_a_foreign_effect_wants_unexplained_or_a_class_and_no_confident_name():
     honest = scored(diagnosis(verdict="unexplained"), STRIBECK, kind="foreign")
     hedged = scored(
-        diagnosis(finding("torque_ripple", [1], rivals=["torque_gain"])), STRIBECK, kind="foreign"
+        diagnosis(finding("torque_ripple", [1], alternatives=["torque_gain"])), STRIBECK, kind="foreign"
     )
     wrong = scored(diagnosis(finding("torque_ripple", [1])), STRIBECK, kind="foreign")
     unsure = scored(diagnosis(finding("torque_ripple", [1], confidence=0.4)), STRIBECK, kind="foreign")

@@ -1,4 +1,4 @@
-"""Make looks at small robots and at the shipped arm, whose truth is known, for the laws of the diagnosis."""
+"""Make data sets of small robots and of the shipped arm, whose truth is known, for laws of the diagnosis."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -37,7 +37,7 @@ Effect = Callable[[MotionState], np.ndarray]
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Hold a look and what is believed."""
+    """Hold a data set and its operating point."""
 
     dataset: Dataset
     operating_point: Prediction
@@ -56,7 +56,7 @@ def skew_arm() -> RobotModel:
 
 @cache
 def eventful_scene() -> Scene:
-    """Look at 12 s of three joints in which every cause has somewhere to look.
+    """Condition 12 s of three joints in which every cause has a site.
 
     The first joint lacks its rotor inertia, and something pushes against the arm for a while.
     """

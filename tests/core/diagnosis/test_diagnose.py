@@ -63,9 +63,9 @@ def test_a_finding_brings_everything_that_decided():
     assert 0.0 < one.explained_fraction < 1.0
     assert one.gain.interval_95[0] > 0.0
     assert all(np.isfinite(part.value) for part in one.evidence if part.statistic != "criterion difference")
-    assert {rival.cause for rival in (*one.ambiguous_with, *one.refuted)}.isdisjoint({one.cause})
-    assert all(rival.why for rival in (*one.ambiguous_with, *one.refuted))
-    assert all(rival.separating_experiment for rival in one.ambiguous_with)
+    assert {alternative.cause for alternative in (*one.ambiguous_with, *one.refuted)}.isdisjoint({one.cause})
+    assert all(alternative.why for alternative in (*one.ambiguous_with, *one.refuted))
+    assert all(alternative.separating_experiment for alternative in one.ambiguous_with)
     (size,) = one.quantities
     assert abs(size.value - UNEVEN) < 3.0 * size.standard_deviation
 

@@ -29,7 +29,7 @@ class WaveTerm(OneJointTerm):
 
 
 class BuiltOn(WaveTerm):
-    """Say what it was built on, so that it is built anew once something else is believed."""
+    """Say what it was built on, so that it is built anew at another operating point."""
 
     def __init__(self, joint: int, waves: Mapping[float, float], operating_point: Prediction) -> None:
         super().__init__(joint, waves)

@@ -73,8 +73,10 @@ def test_alternatives_are_named_in_words_with_the_experiment_that_separates_them
 
 
 def test_what_acts_on_other_joints_only_is_not_called_refuted():
-    rivals = tuple(Alternative("torque_gain", joints, 9.0, "less", "") for joints in ((4,), (2,), (), (3, 4)))
-    assert [one["joints"] for one in row(finding(refuted=rivals))["refuted"]] == [[4], [], [3, 4]]
+    alternatives = tuple(
+        Alternative("torque_gain", joints, 9.0, "less", "") for joints in ((4,), (2,), (), (3, 4))
+    )
+    assert [one["joints"] for one in row(finding(refuted=alternatives))["refuted"]] == [[4], [], [3, 4]]
 
 
 def test_a_gain_is_told_per_joint_with_its_interval():

@@ -1,4 +1,4 @@
-"""Hold what is believed beforehand to what it stands for: further rows, and bodies that are nearly right."""
+"""Hold the prior to what it stands for: further rows, and bodies that are nearly right."""
 
 from dataclasses import replace
 

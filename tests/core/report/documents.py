@@ -111,8 +111,8 @@ def finding(**changes):
         ],
         "explained_residual_fraction": 0.41,
         "evidence": [{"statement": "Rise of the likelihood", "statistic": "likelihood ratio", "value": 91.5}],
-        "ambiguous_with": [rival("torque_gain", "Torque gain error", "run both directions")],
-        "refuted": [rival("torque_ripple", "Torque ripple", "")],
+        "ambiguous_with": [alternative("torque_gain", "Torque gain error", "run both directions")],
+        "refuted": [alternative("torque_ripple", "Torque ripple", "")],
         "gain": {
             "rms_residual_before": [0.3, 0.2],
             "rms_residual_after": [0.2, 0.2],
@@ -125,7 +125,7 @@ def finding(**changes):
     } | changes
 
 
-def rival(cause, title, experiment):
+def alternative(cause, title, experiment):
     why = f"the reason about {cause}"
     return {
         "cause": cause,
@@ -197,7 +197,9 @@ def diagnosis(**changes):
     return {
         "verdict": "causes_found",
         "findings": [finding()],
-        "not_identifiable": [rival("encoder_offset", "Encoder zero error", "turn the joint's neighbours")],
+        "not_identifiable": [
+            alternative("encoder_offset", "Encoder zero error", "turn the joint's neighbours")
+        ],
         "unexplained": {
             "joints": [],
             "predictable_residual_fraction": [0.0, 0.02],

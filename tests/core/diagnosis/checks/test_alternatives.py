@@ -25,7 +25,7 @@ ENDING = wave_cause("ending", {QUICKER: 1.0, SLOW: 2.0})
 
 @cache
 def two_waves() -> tuple[HypothesisFitter, Hypothesis]:
-    """Hide a strong and a weak wave; suspect them, and something that resembles the weak one."""
+    """Hide a strong and a weak wave; take them for candidates, and something that resembles the weak one."""
     fitter = fitter_of(measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2})), (STRONG, WEAK, STOPGAP))
     return fitter, nothing_found(fitter)
 
@@ -55,7 +55,7 @@ def test_a_stopgap_beside_a_strong_effect_is_given_up_and_the_step_is_on_record(
 
 @cache
 def a_wave_beside_one_that_ends() -> tuple[HypothesisFitter, Hypothesis]:
-    """Add to the weak wave what its rival has besides, but only on the rows that are fitted."""
+    """Add to the weak wave what its alternative has besides, but only on the rows that are fitted."""
 
     def effect(state):
         seen = (state.time < HELD_OUT_FROM)[:, None]
@@ -74,16 +74,16 @@ def test_an_alternative_that_does_not_hold_on_held_out_rows_refutes_nothing():
 
 
 def test_what_explains_most_is_not_a_stopgap_however_much_better_others_are():
-    """Alone it is a finding with a rival that explains more, and the report says so."""
+    """Alone it is a finding with an alternative that explains more, and the report says so."""
     names, _, (comparison,) = compared(two_waves(), candidate(STOPGAP))
     assert names == ["stopgap"]
     assert comparison.margin < -6.0
 
 
 @pytest.mark.parametrize(
-    ("leaves", "rival"), [((), True), (("push",), False)], ids=["is", "is left, and is not"]
+    ("leaves", "alternative"), [((), True), (("push",), False)], ids=["is", "is left, and is not"]
 )
-def test_an_event_that_a_cause_leaves_where_it_acts_is_no_alternative_to_it(leaves, rival, monkeypatch):
+def test_an_event_that_a_cause_leaves_where_it_acts_is_no_alternative_to_it(leaves, alternative, monkeypatch):
     def now_and_then(state, _):
         return [np.abs(np.sin(state.position[:, 1])) > 0.9]
 
@@ -92,7 +92,7 @@ def test_an_event_that_a_cause_leaves_where_it_acts_is_no_alternative_to_it(leav
     scene = measured_arm(on_joint(lambda state: 0.5 * now_and_then(state, None)[0]))
     fitter = fitter_of(scene, (clip, push))
     *_, (found,) = compared((fitter, nothing_found(fitter)), candidate(clip))
-    assert ["push" for _ in range(rival)] == [one.cause for one in found.ambiguous]
+    assert ["push" for _ in range(alternative)] == [one.cause for one in found.ambiguous]
 
 
 def product(state):

@@ -45,7 +45,7 @@ class Equations:
         self.joints: tuple[JointRows, ...] = self.again()
 
     def again(self) -> tuple[JointRows, ...]:
-        """Take the rows anew, after a change of the look."""
+        """Take the rows anew, after a change of the data set."""
         return rows_of_joints(self.dataset, self.base, self.mask)
 
     def with_rests(self) -> tuple[JointRows, ...]:

@@ -25,7 +25,7 @@ RATE_HZ = 250.0
 
 @dataclass(frozen=True, eq=False)
 class World:
-    """Hold a look, what is believed, and the model's own torque at the look's rows."""
+    """Hold a data set, its operating point, and the model's own torque at its rows."""
 
     dataset: Dataset
     operating_point: Prediction
@@ -41,7 +41,7 @@ class World:
         return dataset.torque - predicted, tuple(one.noise for one in found.joints)
 
     def noise(self, kind: str, seed: int) -> np.ndarray:
-        """Draw noise at the log's rate and pass it through the look's filter; of unit RMS per joint."""
+        """Draw noise at the log's rate and pass it through the data set's filter; of unit RMS per joint."""
         segment = self.dataset.motions[0].segments[0]
         raw = drawn(kind, np.random.default_rng(seed), segment.samples, self.dataset.joints)
         rows = segment.parallel.apply(np.ascontiguousarray(raw.T), 0, segment.kept).T

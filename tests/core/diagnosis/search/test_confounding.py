@@ -56,8 +56,8 @@ def test_what_acts_on_another_joint_is_no_alternative_though_noise_has_absorbed_
     fitter = fitter_of(measured_arm(effect), ())
     none = nothing_found(fitter)
     own = fitter.fit_with(none, candidate(ALWAYS))
-    rival = fitter.fit_with(none, there)
-    alone = likelihood_ratio(none, rival)
+    alternative = fitter.fit_with(none, there)
+    alone = likelihood_ratio(none, alternative)
     beside = fitter.scan(own, [there])[0].statistic
     assert beside < 0.5 * alone
     assert keeps_beside(fitter, none, own, there, alone)

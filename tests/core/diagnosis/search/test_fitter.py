@@ -149,7 +149,7 @@ class Counted(type(BY_ID["torque_gain_nonlinear"])):
 
 
 def built_anew(fitter: HypothesisFitter, none: Hypothesis) -> int:
-    """Count the columns that a scan has to build under what is believed now."""
+    """Count the columns that a scan has to build at the present operating point."""
     Counted.built.clear()
     fitter.scan(none)
     return len(Counted.built)
@@ -178,7 +178,7 @@ def test_where_other_rows_are_held_out_scans_are_as_on_a_bench_of_its_own_withou
     none, alone = nothing_found(other), nothing_found(own)
     np.testing.assert_array_equal(none.fit.values, alone.fit.values)
     assert not np.array_equal(none.fit.values, fitter.fit(()).fit.values)
-    # The best of each of three joints, under what is believed now.
+    # The best of each of three joints, at the present operating point.
     assert built_anew(other, none) == 3
     pairs = zip(other.scan(none), own.scan(alone), strict=True)
     assert all(one.candidate.key == theirs.candidate.key for one, theirs in pairs)

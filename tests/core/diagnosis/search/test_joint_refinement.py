@@ -1,4 +1,4 @@
-"""Hold the settling of a hypothesis to its law: what is believed may not take away what was found."""
+"""Hold the joint refinement of a hypothesis to its law: its operating point may not undo what was found."""
 
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ QUICK, QUICKER, SLOW, OTHER = 7.0, 11.0, 4.5, 4.0
 
 
 class Fickle(WaveCause):
-    """Suspect one wave, and another one as soon as it is believed."""
+    """Take one wave for a candidate, and another one once the model is linearised at it."""
 
     id = title = "fickle"
 

@@ -102,7 +102,7 @@ def test_of_no_effect_nothing_is_predicted(make, effect):
 @pytest.mark.parametrize(
     ("make", "effect"),
     [(BENCHES["ordinary noise"], drift), (BENCHES["ordinary noise"], sprung), (BENCHES["a prior"], stiff)],
-    ids=["drift under ordinary noise", "sprung under ordinary noise", "stiffer than believed"],
+    ids=["drift under ordinary noise", "sprung under ordinary noise", "stiffer than modelled"],
 )
 def test_what_will_bring_most_is_predicted_to(make, effect):
     fitter = make(effect)

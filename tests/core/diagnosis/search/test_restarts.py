@@ -102,7 +102,7 @@ def test_what_the_whole_cannot_stand_beside_goes_with_what_it_leaves():
 
 
 class Flattering(WaveCause):
-    """Suspect one wave, which looks like three until it is believed in the size of that one."""
+    """Take one wave for a candidate, which resembles three until the model is linearised at its size."""
 
     id = title = "flattering"
 

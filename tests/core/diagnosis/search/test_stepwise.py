@@ -293,17 +293,17 @@ def test_of_two_causes_with_the_same_column_one_is_named_and_the_other_given_as_
     monkeypatch.setattr(imitation, "IMITATIONS", (*IMITATIONS, known))
     found = twins()
     ((name, site),) = names(found)
-    (rival,) = compare_member(found, 0).ambiguous
-    assert {name, rival.cause} == {"one", "other"}
-    assert rival.joints == site
-    assert rival.separating_experiment == "move the joint while its twin rests"
+    (alternative,) = compare_member(found, 0).ambiguous
+    assert {name, alternative.cause} == {"one", "other"}
+    assert alternative.joints == site
+    assert alternative.separating_experiment == "move the joint while its twin rests"
     # Noise is learned from different starts, until it gains less than 0.03 per joint; six would be much.
     assert compare_member(found, 0).margin == pytest.approx(0.0, abs=0.3)
 
 
 def test_an_alternative_that_explains_little_is_not_equally_good():
     found = twins()
-    assert "far" not in {rival.cause for rival in compare_member(found, 0).ambiguous}
+    assert "far" not in {alternative.cause for alternative in compare_member(found, 0).ambiguous}
 
 
 @pytest.mark.parametrize(
@@ -314,7 +314,7 @@ def test_an_alternative_that_explains_little_is_not_equally_good():
 def test_of_causes_that_noise_of_positions_passes_for_one_refutes_the_other_only_by_more_than_it_makes(
     like_noise, size, named
 ):
-    """The rival has a part of the effect, and lags behind by half of what all noise is worth."""
+    """The alternative has a part of the effect, and lags behind by half of what all noise is worth."""
     causes = tuple(
         made_up(name, wave_of(*rates), like_position_noise=like_noise)
         for name, rates in {"whole": (QUICK, QUICKER), "part": (QUICK,)}.items()

@@ -62,7 +62,7 @@ def test_every_term_that_a_diagnosis_knows_comes_back_with_its_torque(term):
     assert [one.name for one in again.model.terms] == [one.name for one in found.model.terms]
     state = eventful_scene().dataset.stretches[0].state
     ours, theirs = (one.model.terms[-1].series(found.robot, state) for one in (found, again))
-    # The believed torque is computed by the plain recursion after reading, by the compiled one before.
+    # The torque is computed by the plain recursion after reading, by the compiled one before.
     np.testing.assert_allclose(theirs, ours, rtol=0, atol=1e-9 * max(1.0, float(np.abs(ours).max())))
 
 

@@ -187,7 +187,7 @@ def test_the_torque_of_the_other_files_is_the_extended_models_without_what_they_
     without = extended.model.torque(extended.standard, state)
     without[:, 2] -= 0.7 * stribeck.series(extended.robot, state)[0]
     theirs = found.model.torque(found.standard, state)
-    # The extended model counts the believed bodies for the turn; a tenth of the last link was added to them.
+    # The extended model counts the operating point's bodies for the turn, and a tenth of the last link more.
     np.testing.assert_allclose(theirs, without, rtol=0, atol=ERROR)
     assert np.abs(theirs - extended.model.torque(extended.standard, state)).max() > 0.05
 

@@ -1,4 +1,4 @@
-"""Make believed models whose effects pinocchio can compute exactly."""
+"""Make operating points whose effects pinocchio can compute exactly."""
 
 import numpy as np
 

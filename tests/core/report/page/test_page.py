@@ -6,13 +6,13 @@ from html.parser import HTMLParser
 import pytest
 
 from tests.core.report.documents import (
+    alternative,
     curve,
     dependence,
     diagnosed,
     finding,
     identified,
     nothing_found,
-    rival,
 )
 from veritorque.core.report.page.page import compose_page
 
@@ -53,7 +53,7 @@ DOCUMENTS = {
     "nothing": nothing_found(),
     "no figure": diagnosed(findings=[finding(curve=None, gain=None)]),
     "on the whole robot": diagnosed(findings=[finding(joints=[], curve=curve(direction=[0.0] * 4))]),
-    "no rivals": diagnosed(findings=[finding(ambiguous_with=[], refuted=[])]),
+    "no alternatives": diagnosed(findings=[finding(ambiguous_with=[], refuted=[])]),
     "numbers that do not exist": diagnosed(
         findings=[
             finding(
@@ -361,7 +361,9 @@ def test_the_parameters_of_a_diagnosis_are_those_of_the_extended_model():
 
 
 def test_no_text_of_a_user_becomes_markup():
-    document = diagnosed(findings=[finding(title=EVIL, statement=EVIL, refuted=[rival(EVIL, EVIL, EVIL)])])
+    document = diagnosed(
+        findings=[finding(title=EVIL, statement=EVIL, refuted=[alternative(EVIL, EVIL, EVIL)])]
+    )
     document["robot"] = {"name": EVIL, "joints": []}
     document["logs"] = [{"name": EVIL}]
     document["doubts"] = [EVIL]
