@@ -13,7 +13,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from ...arrays import Indices, JointSeries
+from ...arrays import Indices, JointMask, JointSeries, Matrix
 from ...dynamics.prediction import Prediction
 from ...dynamics.term import LinearisedTerm
 from ...estimate.gaussian_prior import GaussianPrior
@@ -33,11 +33,40 @@ from .hypothesis import Candidate, ColumnKey, Hypothesis, ScoredCandidate, best_
 
 @dataclass(frozen=True, eq=False)
 class FitRows:
-    """Hold the rows of every joint: those that are fitted, those that are held out, and all of them."""
+    """Give the rows of every joint: those that are fitted, those that are held out, and all of them."""
 
-    fitted: tuple[JointRows, ...]
-    held_out: tuple[JointRows, ...]
-    everywhere: tuple[JointRows, ...]
+    dataset: Dataset
+    columns: tuple[Matrix, ...]
+    """The model's base columns over all rows of the data set."""
+    _taken: dict[str, tuple[JointRows, ...]] = field(default_factory=dict)
+
+    @property
+    def fitted(self) -> tuple[JointRows, ...]:
+        """Give the rows that are fitted: usable, and not held out."""
+        return self._take("fitted", self.dataset.usable & ~self.dataset.held_out[:, None])
+
+    @property
+    def held_out(self) -> tuple[JointRows, ...]:
+        """Give the usable rows that are held out."""
+        return self._take("held_out", self.dataset.usable & self.dataset.held_out[:, None])
+
+    @property
+    def everywhere(self) -> tuple[JointRows, ...]:
+        """Give all rows."""
+        return self._take("everywhere", np.ones_like(self.dataset.usable))
+
+    def _take(self, name: str, mask: JointMask) -> tuple[JointRows, ...]:
+        if name not in self._taken:
+            self._taken[name] = rows_of_joints(self.dataset, self.columns, mask)
+        return self._taken[name]
+
+    def with_torque(self, torque: JointSeries) -> "FitRows":
+        """Give the same rows of another torque."""
+        taken = {
+            name: tuple(replace(one, torque=torque[one.rows, joint]) for joint, one in enumerate(rows))
+            for name, rows in self._taken.items()
+        }
+        return FitRows(replace(self.dataset, torque=torque), self.columns, taken)
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +90,8 @@ class HypothesisFitter:
     """The candidate cache of an earlier operating point, if one was made."""
     _fixed_columns: dict[ColumnKey, Columns] = field(default_factory=dict)
     _panels: WeakKeyDictionary[CandidateCache, Panel] = field(default_factory=WeakKeyDictionary)
+    _none: dict[bool, Hypothesis] = field(default_factory=dict)
+    _absorbed: WeakKeyDictionary[Hypothesis, bool] = field(default_factory=WeakKeyDictionary)
 
     def linearised_at(self, found: Hypothesis) -> "HypothesisFitter":
         """Give a fitter whose operating point is what a hypothesis predicts.
@@ -81,22 +112,34 @@ class HypothesisFitter:
         nothing = no_candidates(self.dataset, self.plan.model)
         return replace(self, at=nothing, ordinary_noise=True, earlier=self._latest_cache)
 
+    def with_causes(self, causes: Sequence[Cause], prior: GaussianPrior | None) -> "HypothesisFitter":
+        """Give a fitter of the same rows that knows candidate causes, and a prior."""
+        none = self._none if prior is None and self.prior is None else {}
+        return replace(self, causes=tuple(causes), prior=prior, ordinary_noise=False, _none=none)
+
     def with_dataset(self, dataset: Dataset) -> "HypothesisFitter":
         """Give a fitter of a data set that holds other rows out; columns and candidate cache stay of use."""
-        return replace(
-            hypothesis_fitter(dataset, self.plan, self.causes, self.prior),
+        return HypothesisFitter(
+            dataset,
+            FitRows(dataset, self.rows.columns),
+            self.plan,
+            self.causes,
+            self.prior,
+            no_candidates(dataset, self.plan.model),
             earlier=self._latest_cache,
             _fixed_columns=self._fixed_columns,
         )
 
     def with_torque(self, torque: JointSeries) -> "HypothesisFitter":
         """Give a fitter of the same rows with another torque, for fits; its candidates stay as they are."""
-
-        def replaced(rows: tuple[JointRows, ...]) -> tuple[JointRows, ...]:
-            return tuple(replace(one, torque=torque[one.rows, joint]) for joint, one in enumerate(rows))
-
-        rows = FitRows(*map(replaced, (self.rows.fitted, self.rows.held_out, self.rows.everywhere)))
-        return replace(self, dataset=replace(self.dataset, torque=torque), rows=rows)
+        rows = self.rows.with_torque(torque)
+        return replace(
+            self,
+            dataset=replace(self.dataset, torque=torque),
+            rows=rows,
+            _none={},
+            _absorbed=WeakKeyDictionary(),
+        )
 
     @property
     def operating_point(self) -> Prediction:
@@ -199,6 +242,8 @@ class HypothesisFitter:
         Noise that has absorbed a large effect can lead to an inadmissible result; then all noise is estimated
         from the beginning.
         """
+        if start is None and not members:
+            return self._fit_none()
         columns = self.columns(members)
         rows = append_columns(self.rows.fitted, columns)
         if start is not None:
@@ -206,6 +251,13 @@ class HypothesisFitter:
             if found.admissible or start.members == members:
                 return found
         return self._hypothesis(members, columns, fit(rows, prior=self.prior, ordinary=self.ordinary_noise))
+
+    def _fit_none(self) -> Hypothesis:
+        """Fit the hypothesis without members, which no operating point changes, once."""
+        if self.ordinary_noise not in self._none:
+            found = fit(self.rows.fitted, prior=self.prior, ordinary=self.ordinary_noise)
+            self._none[self.ordinary_noise] = self._hypothesis((), (), found)
+        return self._none[self.ordinary_noise]
 
     def fit_without_each(self, now: Hypothesis) -> tuple[Hypothesis, ...]:
         """Fit a hypothesis without each of its members in turn; kept until another's are asked for."""
@@ -261,19 +313,17 @@ class HypothesisFitter:
 
         Never where noise is estimated from ordinary residuals already.
         """
-        rows = append_columns(self.rows.fitted, self.columns(under.members))
-        return not self.ordinary_noise and noise_absorbs_effect(rows, under.fit)
+        if self.ordinary_noise:
+            return False
+        if under not in self._absorbed:
+            rows = append_columns(self.rows.fitted, self.columns(under.members))
+            self._absorbed[under] = noise_absorbs_effect(rows, under.fit)
+        return self._absorbed[under]
 
 
 def hypothesis_fitter(
     dataset: Dataset, plan: ColumnPlan, causes: Sequence[Cause], prior: GaussianPrior | None = None
 ) -> HypothesisFitter:
     """Prepare the rows of a data set, with no operating point and no candidates yet."""
-    columns = dataset.observed(plan)
-    usable, held_out = dataset.usable, dataset.held_out[:, None]
-    rows = FitRows(
-        rows_of_joints(dataset, columns, usable & ~held_out),
-        rows_of_joints(dataset, columns, usable & held_out),
-        rows_of_joints(dataset, columns, np.ones_like(usable)),
-    )
+    rows = FitRows(dataset, dataset.observed(plan))
     return HypothesisFitter(dataset, rows, plan, tuple(causes), prior, no_candidates(dataset, plan.model))
