@@ -101,10 +101,10 @@ def independent_columns(columns: csr_array) -> csr_array:
     acting = columns[:, _sizes(columns) > LEAST]
     scaled = _unit_columns(acting)
     gram = (scaled.T @ scaled).tocsr()
-    kept = []
+    products, kept = gram.toarray(), []
     for begin, end in _disjoint_groups(gram):
         first = 1.0 - EARLIER * np.arange(end - begin)
-        group = gram[begin:end, begin:end].toarray() * np.outer(first, first)
+        group = products[begin:end, begin:end] * np.outer(first, first)
         _, order, rank, _ = dpstrf(group, tol=LEAST**2, lower=1)
         kept.append(begin + np.sort(order[:rank] - 1))
     return acting[:, np.concatenate(kept)] if kept else acting
