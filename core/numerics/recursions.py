@@ -83,29 +83,6 @@ def innovate(residual, past, weights, innovations) -> None:  # pragma: no cover 
         innovations[row] = total
 
 
-@njit("float64[:,::1](float64[::1], int32[::1], int32[::1], int64)", **_SUMS)
-def banded_gram(sizes, columns, begins, many) -> np.ndarray:  # pragma: no cover  (compiled)
-    """Give the products of so many sparse columns with each other and with those behind them: band x columns.
-
-    Parameters
-    ----------
-    sizes, columns, begins
-        The columns as compressed rows.
-    """
-    band = 1
-    for row in range(len(begins) - 1):
-        for at in range(begins[row], begins[row + 1]):
-            for other in range(begins[row], begins[row + 1]):
-                band = max(band, 1 + columns[other] - columns[at])
-    products = np.zeros((band, many))
-    for row in range(len(begins) - 1):
-        for at in range(begins[row], begins[row + 1]):
-            for other in range(begins[row], begins[row + 1]):
-                if columns[other] >= columns[at]:
-                    products[columns[other] - columns[at], columns[at]] += sizes[at] * sizes[other]
-    return products
-
-
 @njit(inline="always")
 def _innovate_row(row, known, columns, weights) -> np.ndarray:
     """Give what is new in one row of columns, of which so many rows before it are not zero."""

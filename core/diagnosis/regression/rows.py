@@ -8,7 +8,7 @@ import numpy as np
 from ...arrays import EquationRows, Indices, Matrix, Vector, Weights
 from ..dataset.dataset import Dataset
 from .ar_noise import run_indices
-from .nuisance import Nuisance, independent_columns, nuisance_of
+from .nuisance import Nuisance, independent_nuisance
 
 Columns = Mapping[int, EquationRows]
 """Per joint (from 0), rows x columns; a joint that is left out has zeros."""
@@ -44,7 +44,7 @@ def rows_of_joints(dataset: Dataset, columns: Sequence[Matrix], mask: np.ndarray
                 run_indices(dataset.follows(rows)),
                 columns[joint][rows],
                 dataset.torque[rows, joint],
-                nuisance_of(independent_columns(dataset.sticking[joint][rows])),
+                independent_nuisance(dataset.sticking[joint][rows]),
             )
         )
     return tuple(out)

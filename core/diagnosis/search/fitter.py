@@ -201,7 +201,7 @@ class HypothesisFitter:
         (columns,) = self.columns([candidate])
         part = {joint: own[:, some] for joint, own in columns.items()}
         size = {
-            joint: float(np.sum((under.fit.joints[joint].whitening @ own[self.rows.fitted[joint].rows]) ** 2))
+            joint: float(np.sum(under.fit.joints[joint].white(own[self.rows.fitted[joint].rows]) ** 2))
             for joint, own in part.items()
         }
         largest = sorted(size, key=lambda joint: -size[joint])[: REFINEMENT.onset_joints]
