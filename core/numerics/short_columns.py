@@ -94,6 +94,12 @@ def _prewhiten(rows, past, weights) -> np.ndarray:  # pragma: no cover  (compile
     white = np.zeros(rows.shape)
     for row in range(len(rows)):
         known = min(past[row], most)
+        if rows.shape[1] == 1:
+            total = 0.0
+            for lag in range(known + 1):
+                total += weights[known, lag] * rows[row - lag, 0]
+            white[row, 0] = total
+            continue
         for lag in range(known + 1):
             _add(white[row], weights[known, lag], rows[row - lag])
     return white
@@ -132,6 +138,12 @@ def _prewhiten_short(values, places, begins, many, past, weights) -> _Short:  # 
 def _combine(values, places, begins, coefficients) -> np.ndarray:  # pragma: no cover  (compiled)
     out = np.zeros((len(begins) - 1, coefficients.shape[1]))
     for row in range(len(out)):
+        if coefficients.shape[1] == 1:
+            total = 0.0
+            for at in range(begins[row], begins[row + 1]):
+                total += values[at] * coefficients[places[at], 0]
+            out[row, 0] = total
+            continue
         for at in range(begins[row], begins[row + 1]):
             _add(out[row], values[at], coefficients[places[at]])
     return out
@@ -141,6 +153,10 @@ def _combine(values, places, begins, coefficients) -> np.ndarray:  # pragma: no 
 def _multiply(values, places, begins, many, rows) -> np.ndarray:  # pragma: no cover  (compiled)
     out = np.zeros((many, rows.shape[1]))
     for row in range(len(rows)):
+        if rows.shape[1] == 1:
+            for at in range(begins[row], begins[row + 1]):
+                out[places[at], 0] += values[at] * rows[row, 0]
+            continue
         for at in range(begins[row], begins[row + 1]):
             _add(out[places[at]], values[at], rows[row])
     return out

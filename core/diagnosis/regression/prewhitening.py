@@ -63,7 +63,9 @@ class Prewhitened:
             return replace(
                 self, acting=self.acting[:own], columns=before, inside=kept_inside, gram=self.gram[:own, :own]
             )
-        new, white, inside = _whiten(self.noise, self.run_index, self.nuisance, further)
+        new = np.flatnonzero(further.any(axis=0))
+        white = self.white(further[:, new])
+        inside = self.nuisance.in_span(white)
         gram = np.empty((own + len(new), own + len(new)))
         gram[:own, :own] = self.gram[:own, :own]
         gram[:own, own:] = before.T @ white - kept_inside.T @ inside
@@ -81,12 +83,13 @@ class Prewhitened:
 def prewhiten(rows: JointRows, noise: ARNoise) -> Prewhitened:
     """Whiten one joint's rows."""
     nuisance = _white_nuisance(rows, noise)
-    acting, columns, inside = _whiten(noise, rows.run_index, nuisance, rows.columns)
+    columns = noise.whitened(rows.acting_columns, rows.run_index)
+    inside = nuisance.in_span(columns)
     torque = nuisance.without_nuisance(noise.whitened(rows.torque[:, None], rows.run_index))[:, 0]
     return Prewhitened(
         noise=noise,
         run_index=rows.run_index,
-        acting=acting,
+        acting=rows.acting,
         columns=columns,
         inside=inside,
         gram=_gram(columns, inside),
@@ -103,15 +106,6 @@ def prewhitened_residual(rows: JointRows, noise: ARNoise, left: Matrix) -> Equat
 
 def _white_nuisance(rows: JointRows, noise: ARNoise) -> Nuisance:
     return nuisance_of(rows.nuisance.columns.prewhitened(rows.run_index, noise.weights))
-
-
-def _whiten(
-    noise: ARNoise, run_index: Indices, nuisance: Nuisance, columns: Matrix
-) -> tuple[Indices, EquationRows, EquationRows]:
-    """List the columns that act at all, and give them white, with what free ones span of them."""
-    acting = np.flatnonzero(columns.any(axis=0))
-    white = noise.whitened(columns[:, acting], run_index)
-    return acting, white, nuisance.in_span(white)
 
 
 def _gram(columns: EquationRows, inside: EquationRows) -> SquareMatrix:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -26,6 +27,16 @@ class JointRows:
     """What is fitted, and what it is fitted to."""
     nuisance: Nuisance
     """Nuisance columns: friction while the joint sticks."""
+
+    @cached_property
+    def acting(self) -> Indices:
+        """List the columns that are not all zero on the rows."""
+        return np.flatnonzero(self.columns.any(axis=0))
+
+    @cached_property
+    def acting_columns(self) -> EquationRows:
+        """Give those columns."""
+        return np.ascontiguousarray(self.columns[:, self.acting])
 
     def residual(self, values: Weights) -> Vector:
         """Give the residual of the columns, on the complement of the nuisance columns."""

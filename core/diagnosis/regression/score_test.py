@@ -101,7 +101,7 @@ class _Alike:
 
 def _stack_columns(columns: Sequence[EquationRows], rows: Indices) -> EquationRows:
     """Put columns beside each other, and take some of their rows."""
-    return np.hstack(columns)[rows] if columns else np.zeros((len(rows), 0))
+    return np.concatenate(columns, axis=1)[rows] if columns else np.zeros((len(rows), 0))
 
 
 def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> list[Score]:
