@@ -43,10 +43,7 @@ def _filtered(
     terms: Sequence[Term], robot: RobotModel, stretches: Sequence[Stretch], rows: int
 ) -> list[dict[int, np.ndarray]]:
     shapes = [(term.entries(robot), len(term.parameters(robot))) for term in terms]
-    out = [
-        {joint: np.zeros((rows, width)) for joint in {entry[0] for entry in entries}}
-        for entries, width in shapes
-    ]
+    out = [{joint: np.zeros((rows, width)) for joint in dict(entries)} for entries, width in shapes]
     for stretch in stretches:
         for index, filtered in _filter(terms, robot, stretch):
             for (joint, parameter), row in zip(shapes[index][0], filtered, strict=True):
