@@ -9,7 +9,6 @@ import numpy as np
 from scipy.ndimage import maximum_filter1d
 
 from ..arrays import InstantSeries, JointSeries
-from ..numerics.elementwise import difference_of_seven
 
 REACH = 3
 """Samples on either side that a derivative is computed from."""
@@ -27,11 +26,11 @@ def differentiate(values: JointSeries, rate_hz: float) -> InstantSeries:
     >>> differentiate(np.arange(8.0)[:, None] ** 2, 1.0).ravel()
     array([6., 8.])
     """
-    samples, columns = values.shape
-    out = np.empty((max(samples - 2 * REACH, 0), columns))
-    flat = np.ascontiguousarray(values, dtype=float).ravel()
-    difference_of_seven(flat, columns, rate_hz / 60.0, out.ravel())
-    return out
+    count = len(values) - 2 * REACH
+    one, two, three = (
+        values[REACH + steps :][:count] - values[REACH - steps :][:count] for steps in range(1, REACH + 1)
+    )
+    return np.asarray((45.0 * one - 9.0 * two + three) * (rate_hz / 60.0))
 
 
 def differentiate_throughout(values: JointSeries, rate_hz: float) -> InstantSeries:
