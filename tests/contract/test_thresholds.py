@@ -56,7 +56,7 @@ NAMED = {
         "causes/dropped_samples": "ROWS",
         "checks/clipped_channel": "ROWS",
         "checks/gain": "DRAWS",
-        "dataset/dataset": "BATCH",
+        "dataset/columns": "BATCH",
     },
     "figure": {
         "causes/exclusion": "EXCLUSIONS",
