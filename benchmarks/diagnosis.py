@@ -1,16 +1,22 @@
 """Diagnosis over all causes of logs from an engine that is not ours: its cost, and how that grows.
 
-The search takes most of the time, and the more so the more there is to find; so a log that hides three
-effects stands beside one that hides nothing. Robots differ in the band of their motion: costs are compared
-per row that was looked at.
+The search takes most of the time, and the more so the more there is to find; so logs that hide one effect or
+three stand beside those that hide nothing, stage by stage. Robots differ in the band of their motion: costs
+are compared per row that was looked at.
 """
 
+import statistics
+import time
+from collections import defaultdict
+from collections.abc import Iterator
 from functools import cache
+from itertools import count, islice
 
 import numpy as np
 
-from benchmarks.figures import Figure, processor_seconds
-from tests.plant.cases import Case, draw, draw_clean
+from benchmarks.figures import Figure
+from tests.plant.cache import kept
+from tests.plant.cases import Case, ImpossibleError, draw, draw_clean
 from veritorque.core.diagnosis.diagnose import diagnose
 from veritorque.core.diagnosis.problem import DiagnosisProblem
 from veritorque.core.dynamics.model import standard_model
@@ -23,7 +29,13 @@ SECONDS = (15.0, 30.0, 60.0, 120.0)
 USUAL = SECONDS[1]
 QUICK_SECONDS = (6.0, 12.0)
 BLOCKS = 40
-CLEAN_SEED, HIDDEN_SEED = 11, 7
+CLEAN_SEED = 11
+DRAWN = 10
+"""Logs of a kind whose stages are measured."""
+TARGETS = {0: "<= 1.2", 1: "<= 2", 3: "<= 4"}
+"""Median processor time by the number of hidden effects, s."""
+FIRST_STAGE = "check samples"
+"""What a diagnosis does before it reports a stage."""
 
 
 def run(*, quick: bool) -> list[Figure]:
@@ -31,16 +43,14 @@ def run(*, quick: bool) -> list[Figure]:
     robots, seconds = (ROBOTS[:2], QUICK_SECONDS) if quick else (ROBOTS, SECONDS)
     usual = seconds[1]
     largest = robots[-1]
+    _stages(_clean(robots[0], seconds[0]))  # the first one loads what all need
     costs = {length: _cost_of_clean(largest, length) for length in seconds}
     figures = [
         Figure(f"{largest}, {length:.0f} s, nothing hidden, processor s", f"{cost:.2f}", _target(length))
         for length, (cost, _) in costs.items()
     ]
-    if not quick:
-        three, _ = _cost(draw(HIDDEN_SEED, effects=3, robot=largest))
-        figures.append(
-            Figure(f"{largest}, {USUAL:.0f} s, three effects hidden, processor s", f"{three:.2f}", "<= 10")
-        )
+    for effects in (0,) if quick else TARGETS:
+        figures += _by_stage(effects, largest, usual, 1 if quick else DRAWN)
     first, last = seconds[0], seconds[-1]
     each = costs[last][0] / costs[first][0] * first / last
     figures.append(
@@ -56,6 +66,49 @@ def run(*, quick: bool) -> list[Figure]:
     return [*figures, Figure(f"power of the number of joints ({counts})", f"{slope:.2f}", "<= 2", ratio=True)]
 
 
+def _by_stage(effects: int, robot: str, seconds: float, logs: int) -> list[Figure]:
+    """Diagnose drawn logs, and give the median, with those of all stages beside it, and the slowest."""
+    spent = [_stages(case)[0] for case in islice(_drawn(effects, robot, seconds), logs)]
+    totals = [sum(stages.values()) for stages in spent]
+    stages = ", ".join(f"{name} {statistics.median(one[name] for one in spent):.2f}" for name in spent[0])
+    what = f"{robot}, {seconds:.0f} s, hidden effects: {effects}, drawn logs: {logs}, processor s"
+    return [
+        Figure(f"{what}: median", f"{statistics.median(totals):.2f}", TARGETS[effects], stages),
+        Figure(f"{what}: slowest", f"{max(totals):.2f}", "<= 10"),
+    ]
+
+
+def _drawn(effects: int, robot: str, seconds: float) -> Iterator[Case]:
+    """Draw logs one after the other, but for those in which so many effects cannot be hidden."""
+    for seed in count(1_000 * (1 + effects)):
+        try:
+            if effects:
+                yield kept(draw, seed, effects=effects, robot=robot, duration=seconds)
+            else:
+                yield kept(draw_clean, seed, robot=robot, duration=seconds)
+        except ImpossibleError:
+            continue
+
+
+def _stages(case: Case) -> tuple[dict[str, float], int]:
+    """Give the processor time of a diagnosis by stages, s, and how many rows it looked at."""
+    spent: dict[str, float] = defaultdict(float)
+    stage, since = FIRST_STAGE, time.process_time()
+
+    def begin(name: str, _done: float) -> None:
+        nonlocal stage, since
+        now = time.process_time()
+        spent[stage] += now - since
+        stage, since = name, now
+
+    model = standard_model(case.believed)
+    plan = ColumnPlan(model, base_model(model).kept)
+    question = DiagnosisProblem(plan, (case.log,), HoldOut(0.25, BLOCKS).chosen(1), BLOCKS)
+    found = diagnose(question, begin)
+    begin("", 1.0)
+    return spent, len(found.dataset.time)
+
+
 def _target(length: float) -> str:
     return "<= 10" if length == USUAL else ""
 
@@ -67,19 +120,11 @@ def _clean(robot: str, seconds: float) -> Case:
 
 @cache
 def _cost_of_clean(robot: str, seconds: float) -> tuple[float, int]:
-    return _cost(_clean(robot, seconds))
+    """Give the processor time of a diagnosis, s, and how many rows it looked at."""
+    spent, rows = _stages(_clean(robot, seconds))
+    return sum(spent.values()), rows
 
 
 def _per_row(robot: str, seconds: float) -> float:
     cost, rows = _cost_of_clean(robot, seconds)
     return cost / rows
-
-
-def _cost(case: Case) -> tuple[float, int]:
-    """Give the processor time of a diagnosis, s, and how many rows it looked at."""
-    model = standard_model(case.believed)
-    plan = ColumnPlan(model, base_model(model).kept)
-    question = DiagnosisProblem(plan, (case.log,), HoldOut(0.25, BLOCKS).chosen(1), BLOCKS)
-    rows: list[int] = []
-    spent = processor_seconds(lambda: rows.append(len(diagnose(question).dataset.time)), repeats=1, least=0.0)
-    return spent, rows[-1]

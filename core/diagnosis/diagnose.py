@@ -51,10 +51,10 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
         If the logs hold too little motion for a fit.
     """
     tell = progress or _no_progress
-    faults, dataset = _check_samples(problem)
-    refuse_too_little(dataset, problem.plan)
-    found = _search_causes(_fitter(problem, dataset), tell)
-    found = restart_from_alignment(found, partial(later_torque, dataset))
+    faults, plain = _check_samples(problem)
+    refuse_too_little(plain.dataset, problem.plan)
+    found = _search_causes(_with_causes(problem, plain), tell)
+    found = restart_from_alignment(found, partial(later_torque, plain.dataset))
     found = drop_what_motion_does_not_show(found, partial(_dataset, problem))
     tell("compare alternatives", 0.6)
     found, comparisons = _compare(found)
@@ -87,11 +87,11 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     )
 
 
-def _fitter(problem: DiagnosisProblem, dataset: Dataset) -> HypothesisFitter:
-    """Prepare the fitter with all candidate causes, and the prior that a reference gives."""
+def _with_causes(problem: DiagnosisProblem, plain: HypothesisFitter) -> HypothesisFitter:
+    """Give a fitter all candidate causes, and the prior that a reference gives."""
     reference = problem.reference
     causes, prior = (CAUSES, None) if reference is None else (AGAINST_REFERENCE, reference.prior)
-    return hypothesis_fitter(dataset, problem.plan, causes, prior)
+    return plain.with_causes(causes, prior)
 
 
 def _search_causes(fitter: HypothesisFitter, tell: Progress) -> SearchState:
@@ -151,14 +151,17 @@ def _residual_before(found: SearchState) -> JointSeries:
     return residual(found.fitter, found.chosen, range(len(found.chosen.members)))
 
 
-def _check_samples(problem: DiagnosisProblem) -> tuple[list[Finding], Dataset]:
-    """Check the samples at a wide band, then limit the band to where positions are not all noise."""
+def _check_samples(problem: DiagnosisProblem) -> tuple[list[Finding], HypothesisFitter]:
+    """Check the samples at a wide band, then limit the band to where positions are not all noise.
+
+    Gives a fitter without causes on that band.
+    """
     fits: list[Fitted] = []
     plain: list[Explained] = []
 
     def fit_at(width: float) -> Fitted:
         dataset = _dataset(problem, width)
-        fitter, found = _plain_fit(problem, dataset)
+        fitter, found = _plain_fit(hypothesis_fitter(dataset, problem.plan, ()))
         plain.append((fitter, found))
         noise = tuple(joint.noise for joint in found.fit.joints)
         fits.append((dataset, fitter.linearised_at(found).operating_point, noise))
@@ -176,12 +179,13 @@ def _check_samples(problem: DiagnosisProblem) -> tuple[list[Finding], Dataset]:
     faults += [
         sample_finding(ClippedChannel(), limit, wide) for limit in clipped_channels(wide, operating_point)
     ]
-    return faults, with_typical_holdout(dataset, plain[-1], partial(_plain_fit, problem))
+    fitter = replace(plain[-1][0], dataset=dataset)
+    typical = with_typical_holdout(dataset, plain[-1], lambda other: _plain_fit(fitter.with_dataset(other)))
+    return faults, fitter if typical is dataset else fitter.with_dataset(typical)
 
 
-def _plain_fit(problem: DiagnosisProblem, dataset: Dataset) -> Explained:
+def _plain_fit(fitter: HypothesisFitter) -> Explained:
     """Fit the model without any cause, under ordinary noise where too much is left to the noise."""
-    fitter = hypothesis_fitter(dataset, problem.plan, ())
     found = fitter.fit(())
     if fitter.needs_ordinary_noise(found):
         fitter = fitter.with_ordinary_noise()

@@ -15,6 +15,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from ..arrays import JointSeries, LinkTable, Parameters, Weights
+from ..numerics.elementwise import add_products
 from ..robot.model import RobotModel
 from ..signals.state import MotionState
 from .model import DynamicModel, term_torque
@@ -126,11 +127,11 @@ class Prediction:
         shift
             Difference of that joint's position, velocity and acceleration, one column each.
         """
-        by_position, by_velocity, by_acceleration = self.slopes(state, joint)
-        change = by_position * shift.position
-        change += by_velocity * shift.velocity
-        change += by_acceleration * shift.acceleration
-        return np.asarray(change)
+        change = np.empty_like(state.position, dtype=float, order="F")
+        moved = (shift.position, shift.velocity, shift.acceleration)
+        one, two, three = (np.ascontiguousarray(series[:, 0]) for series in moved)
+        add_products(self.slopes(state, joint), (one, two, three), change)
+        return change
 
     def slopes(self, state: MotionState, joint: int) -> Slopes:
         """Give the load's derivatives by position, velocity and acceleration of a joint, counted from 0.

@@ -7,7 +7,7 @@ pulls about a sample are those that are exact for pulls up to second order in ti
 import numpy as np
 
 from ..arrays import Samples
-from .recursions import follow
+from .recursions import swing_freely
 
 MOST_DAMPED = 0.999
 """Share of critical damping from which on more is taken for this: the free motion then no longer swings."""
@@ -35,16 +35,7 @@ def swing(pulls: Samples, step: float, squares: Samples, decays: Samples) -> Sam
     """
     most = MOST_DAMPED * np.sqrt(squares)
     decays = np.clip(decays, -most, most)
-    kept = np.exp(-decays * step)
-    once, twice = 2.0 * kept * np.cos(np.sqrt(squares - decays**2) * step), kept**2
-    late = 2.0 * decays / squares
-    rest, slope = (1.0 - once + twice) / squares, (1.0 - twice) / squares
-    bend = (1.0 + twice) / squares - 2.0 * (late / step) * slope
-    first = slope - late / step * rest
-    second = bend + 2.0 * rest * (late**2 - 1.0 / squares) / step**2
-    change = np.diff(pulls, prepend=pulls[:1], append=pulls[-1:])
-    before, after = change[:-1], change[1:]
-    driven = rest * pulls + 0.5 * first * (after + before) + 0.5 * second * (after - before)
+    kept, cosine = np.exp(-decays * step), np.cos(np.sqrt(squares - decays**2) * step)
     followed = np.empty(len(pulls))
-    follow(driven, once, twice, pulls[0] / squares[0], followed)
+    swing_freely(pulls, step, (squares, decays, kept, cosine), followed)
     return followed

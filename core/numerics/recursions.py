@@ -83,29 +83,6 @@ def innovate(residual, past, weights, innovations) -> None:  # pragma: no cover 
         innovations[row] = total
 
 
-@njit("float64[:,::1](float64[::1], int32[::1], int32[::1], int64)", **_SUMS)
-def banded_gram(sizes, columns, begins, many) -> np.ndarray:  # pragma: no cover  (compiled)
-    """Give the products of so many sparse columns with each other and with those behind them: band x columns.
-
-    Parameters
-    ----------
-    sizes, columns, begins
-        The columns as compressed rows.
-    """
-    band = 1
-    for row in range(len(begins) - 1):
-        for at in range(begins[row], begins[row + 1]):
-            for other in range(begins[row], begins[row + 1]):
-                band = max(band, 1 + columns[other] - columns[at])
-    products = np.zeros((band, many))
-    for row in range(len(begins) - 1):
-        for at in range(begins[row], begins[row + 1]):
-            for other in range(begins[row], begins[row + 1]):
-                if columns[other] >= columns[at]:
-                    products[columns[other] - columns[at], columns[at]] += sizes[at] * sizes[other]
-    return products
-
-
 @njit(inline="always")
 def _innovate_row(row, known, columns, weights) -> np.ndarray:
     """Give what is new in one row of columns, of which so many rows before it are not zero."""
@@ -256,21 +233,34 @@ def _ranges(loose: np.ndarray, begins: np.ndarray, factor: np.ndarray) -> tuple[
     return lowest, above, np.append(True, np.maximum.accumulate(tied) < np.arange(1, many + 1))
 
 
-@njit("void(float64[::1], float64[::1], float64[::1], float64, float64[::1])", **_EXACT)
-def follow(driven, once, twice, start, followed) -> None:  # pragma: no cover  (compiled)
-    """Write a series of which each value is driven + once the one before it - twice the one before that.
+_COEFFICIENTS = "Tuple((float64[::1], float64[::1], float64[::1], float64[::1]))"
+
+
+@njit(f"void(float64[::1], float64, {_COEFFICIENTS}, float64[::1])", **_EXACT)
+def swing_freely(pulls, step, coefficients, followed) -> None:  # pragma: no cover  (compiled)
+    """Write where an oscillator is whose coefficients are those of each sample (see `swing`).
 
     Parameters
     ----------
-    driven, once, twice
-        Of each value what the next one is made with.
-    start
-        The first value, and the one before it.
+    coefficients
+        Squared angular frequency, decay, what is left of a swing after a step, and the cosine of the angle
+        that it swings by.
     """
-    before, now = start, start
-    for sample in range(len(driven)):
+    squares, decays, kept, cosine = coefficients
+    before = now = pulls[0] / squares[0]
+    for sample in range(len(pulls)):
         followed[sample] = now
-        before, now = now, driven[sample] + once[sample] * now - twice[sample] * before
+        square, pull = squares[sample], pulls[sample]
+        once, twice = 2.0 * kept[sample] * cosine[sample], kept[sample] ** 2
+        late = 2.0 * decays[sample] / square
+        rest, slope = (1.0 - once + twice) / square, (1.0 - twice) / square
+        bend = (1.0 + twice) / square - 2.0 * (late / step) * slope
+        first = slope - late / step * rest
+        second = bend + 2.0 * rest * (late**2 - 1.0 / square) / step**2
+        behind = pull - pulls[max(sample - 1, 0)]
+        ahead = pulls[min(sample + 1, len(pulls) - 1)] - pull
+        driven = rest * pull + 0.5 * first * (ahead + behind) + 0.5 * second * (ahead - behind)
+        before, now = now, driven + once * now - twice * before
 
 
 @njit("void(float64[::1], float64, float64, float64[::1])", **_EXACT)

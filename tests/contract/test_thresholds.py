@@ -66,7 +66,7 @@ NAMED = {
         "diagnosis/causes/dropped_samples": "ROWS",
         "diagnosis/checks/clipped_channel": "ROWS",
         "diagnosis/checks/gain": "DRAWS",
-        "diagnosis/dataset/dataset": "BATCH",
+        "diagnosis/dataset/columns": "BATCH",
         "extension/gain": "DRAWS",
     },
     "figure": {

@@ -177,7 +177,7 @@ class _Directions:
             if not present:
                 continue
             place = np.concatenate([places[index] for index in present])
-            white = own.whitening @ np.hstack([self._columns[index][joint] for index in present])[rows.rows]
+            white = own.white(np.hstack([self._columns[index][joint] for index in present])[rows.rows])
             inside = own.nuisance.in_span(white)
             gram[np.ix_(place, place)] += white.T @ white - inside.T @ inside
             squares[place] += np.sum(white**2, axis=0)

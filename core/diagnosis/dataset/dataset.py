@@ -6,17 +6,16 @@ at most. Rows within the filter's main lobe of a velocity reversal are marked: t
 velocity is not the direction of friction. Of long logs evenly spread stretches are used.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 from scipy.sparse import block_diag, csr_array
 
-from ...arrays import BlockKey, Indices, JointMask, JointSeries, KeptSeries, Samples, Series, UsableRows
+from ...arrays import BlockKey, Indices, JointMask, JointSeries, Samples, UsableRows
 from ...dynamics.model import DynamicModel
 from ...dynamics.term import Term
-from ...dynamics.terms.payload_change import Payload
 from ...errors import ExcitationError
 from ...log.model import JointLog
 from ...regressor.columns import ColumnPlan
@@ -26,11 +25,9 @@ from ...signals.condition import Motion, condition
 from ...signals.recipe import FilterOptions, choose_recipe
 from ...signals.state import MotionState, concatenate_states
 from ..thresholds.dataset import BAND, ROWS
+from .columns import term_columns
 from .segments import DatasetSegment, later_torques, segments_of, thinning
 from .stretch import Stretch
-
-BATCH = 64
-"""Series that are filtered at once: as many as stay near the processor."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,16 +103,7 @@ class Dataset:
 
     def columns(self, terms: Sequence[Term]) -> list[dict[int, np.ndarray]]:
         """Give, per term and joint (from 0), the filtered rows per unit parameter."""
-        shapes = [(term.entries(self.robot), len(term.parameters(self.robot))) for term in terms]
-        out = [
-            {joint: np.zeros((len(self.time), width)) for joint in {entry[0] for entry in entries}}
-            for entries, width in shapes
-        ]
-        for stretch in self.stretches:
-            for index, filtered in _filter(terms, self.robot, stretch):
-                for (joint, parameter), row in zip(shapes[index][0], filtered, strict=True):
-                    out[index][joint][stretch.rows, parameter] += row
-        return out
+        return term_columns(terms, self.robot, self.stretches, len(self.time))
 
 
 def build_dataset(
@@ -248,41 +236,3 @@ def _options(log: JointLog, width: float, robot: RobotModel) -> FilterOptions:
         order=BAND.order,
         decimation=thin * int(log.rate_hz / (BAND.rows * cutoff) / thin),
     )
-
-
-def _filter(terms: Sequence[Term], robot: RobotModel, stretch: Stretch) -> Iterator[tuple[int, KeptSeries]]:
-    """Filter the series of some terms over a stretch; give each term's with its number."""
-    batch: dict[int, Series] = {}
-    for index, term in enumerate(terms):
-        if isinstance(term, Payload):
-            yield index, onset_rows(term, robot, stretch)
-            continue
-        batch[index] = term.series(robot, stretch.state)
-        if sum(len(series) for series in batch.values()) >= BATCH:
-            yield from _filter_batch(batch, stretch)
-            batch.clear()
-    if batch:
-        yield from _filter_batch(batch, stretch)
-
-
-def _filter_batch(batch: Mapping[int, Series], stretch: Stretch) -> Iterator[tuple[int, KeptSeries]]:
-    ends = np.cumsum([len(series) for series in batch.values()])[:-1]
-    filtered = stretch.filtered(np.vstack(list(batch.values())))
-    yield from zip(batch, np.split(filtered, ends), strict=True)
-
-
-def onset_rows(body: Payload, robot: RobotModel, stretch: Stretch) -> KeptSeries:
-    """Give the filtered series of a body, from those of one that is always there.
-
-    Its onset is searched finely and its columns are many; away from the onset they are the other's, or zero.
-    """
-    time = stretch.state.time
-    begin = 0 if time is None else int(np.searchsorted(time, body.begin))
-    return stretch.begun(*_throughout(robot, body.link, stretch), begin)
-
-
-@lru_cache(maxsize=8)
-def _throughout(robot: RobotModel, link: int, stretch: Stretch) -> tuple[Series, KeptSeries]:
-    """Give the series of a body that was there all along, and what filtering them gives."""
-    series = Payload(0, link, -np.inf).series(robot, stretch.state)
-    return series, stretch.filtered(series)

@@ -14,6 +14,7 @@ from scipy.sparse import csr_array
 
 from ...arrays import Indices, Matrix, SquareMatrix, Vector, Weights
 from ...numerics.recursions import innovate, reflect
+from ...numerics.short_columns import prewhitened
 from ..thresholds.regression import NOISE
 
 
@@ -41,7 +42,7 @@ class ARNoise:
         run_index
             Per row, its index within its run, from 0.
         """
-        return np.asarray(self.whitening(run_index) @ columns)
+        return prewhitened(columns, run_index, self.weights)
 
     def whitening(self, run_index: Indices) -> csr_array:
         """Give the prewhitening as a matrix: each row less its prediction from earlier rows of its run."""

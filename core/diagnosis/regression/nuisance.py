@@ -15,7 +15,7 @@ from scipy.linalg.lapack import dpbtrs, dpstrf, dtbtrs
 from scipy.sparse import csr_array
 
 from ...arrays import EquationRows, Matrix, Vector, Weights
-from ...numerics.recursions import banded_gram
+from ...numerics.short_columns import ShortColumns, short_columns
 
 LEAST = 1e-4
 """A column smaller than this on the rows at hand acts elsewhere; so does one whose unit is all spanned but
@@ -28,37 +28,37 @@ RIDGE = 1e-13
 
 @dataclass(frozen=True, eq=False)
 class Nuisance:
-    """Hold independent columns in the order of time, their transpose, and the factor of their Gram matrix.
+    """Hold independent columns in the order of time, and the factor of their Gram matrix.
 
     The columns are scaled to unit size; `sizes` are those they had.
     """
 
-    columns: csr_array
-    transposed: csr_array
+    columns: ShortColumns
     factor: Matrix
     sizes: Vector
 
     @property
     def count(self) -> int:
         """Count the degrees of freedom that the columns take."""
-        return int(self.columns.shape[1])
+        return self.columns.count
 
     def without_nuisance(self, rows: Matrix) -> Matrix:
         """Project columns over the same rows on the complement of the nuisance columns."""
         if not self.count:
             return rows
         for _ in range(2):
-            along, _ = dpbtrs(self.factor, self.transposed @ rows, lower=1)
-            rows = rows - self.columns @ along
+            along, _ = dpbtrs(self.factor, self.columns.products(rows), lower=1)
+            rows = rows - self.columns.combined(along)
         return rows
 
     def coefficients(self, rows: Vector) -> Weights:
         """Give the least-squares coefficients of a column over the same rows, in the columns' own sizes."""
-        along = np.zeros(self.count)
+        along = np.zeros((self.count, 1))
         for _ in range(2 if self.count else 0):
-            more, _ = dpbtrs(self.factor, self.transposed @ (rows - self.columns @ along), lower=1)
+            left = rows[:, None] - self.columns.combined(along)
+            more, _ = dpbtrs(self.factor, self.columns.products(left), lower=1)
             along += more
-        return np.asarray(along / self.sizes)
+        return np.asarray(along[:, 0] / self.sizes)
 
     def in_span(self, rows: Matrix) -> EquationRows:
         """Give the part of columns in the nuisance span along orthonormal axes.
@@ -67,11 +67,11 @@ class Nuisance:
         """
         if not self.count or not rows.shape[1]:
             return np.zeros((self.count, rows.shape[1]))
-        along, _ = dtbtrs(self.factor, self.transposed @ rows, uplo="L")
+        along, _ = dtbtrs(self.factor, self.columns.products(rows), uplo="L")
         return np.asarray(along)
 
 
-def nuisance_of(columns: csr_array) -> Nuisance:
+def nuisance_of(columns: ShortColumns) -> Nuisance:
     """Factorise independent columns of any size.
 
     Parameters
@@ -79,13 +79,17 @@ def nuisance_of(columns: csr_array) -> Nuisance:
     columns
         In the order of time: what lies apart in the order must not overlap much.
     """
-    scaled = _unit_columns(columns)
-    products = banded_gram(
-        scaled.data, scaled.indices.astype(np.int32), scaled.indptr.astype(np.int32), scaled.shape[1]
-    )
+    sizes = columns.norms()
+    scaled = columns.over(sizes)
+    products = scaled.banded_gram()
     products[0] += RIDGE
     factor = cholesky_banded(products, lower=True) if products.size else products
-    return Nuisance(scaled, scaled.T.tocsr(), factor, _sizes(columns))
+    return Nuisance(scaled, factor, sizes)
+
+
+def independent_nuisance(columns: csr_array) -> Nuisance:
+    """Factorise those of some columns that are independent (see `independent_columns`)."""
+    return nuisance_of(short_columns(independent_columns(columns)))
 
 
 def independent_columns(columns: csr_array) -> csr_array:
@@ -101,10 +105,10 @@ def independent_columns(columns: csr_array) -> csr_array:
     acting = columns[:, _sizes(columns) > LEAST]
     scaled = _unit_columns(acting)
     gram = (scaled.T @ scaled).tocsr()
-    kept = []
+    products, kept = gram.toarray(), []
     for begin, end in _disjoint_groups(gram):
         first = 1.0 - EARLIER * np.arange(end - begin)
-        group = gram[begin:end, begin:end].toarray() * np.outer(first, first)
+        group = products[begin:end, begin:end] * np.outer(first, first)
         _, order, rank, _ = dpstrf(group, tol=LEAST**2, lower=1)
         kept.append(begin + np.sort(order[:rank] - 1))
     return acting[:, np.concatenate(kept)] if kept else acting

@@ -7,7 +7,6 @@ kept, so that further columns cost what they are alone. Source: Aitken 1936.
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from ...arrays import EquationRows, Indices, Matrix, SquareMatrix, Vector, Weights
 from .ar_noise import ARNoise
@@ -23,8 +22,8 @@ class Prewhitened:
     """Hold one joint's prewhitened rows: columns and torque in units of the noise."""
 
     noise: ARNoise
-    whitening: csr_array
-    """What makes columns over the joint's rows white."""
+    run_index: Indices
+    """The model, and the index of each of the joint's rows within its run."""
     acting: Indices
     """Which columns are not all zero on the joint, in rising order: the others are left out below."""
     columns: EquationRows
@@ -36,6 +35,10 @@ class Prewhitened:
     """White torque, less what nuisance columns span of it."""
     log_deviations: float
     nuisance: Nuisance
+
+    def white(self, columns: Matrix) -> EquationRows:
+        """Prewhiten columns over the joint's rows."""
+        return self.noise.whitened(columns, self.run_index)
 
     def of(self, some: slice) -> EquationRows:
         """Give those of some columns that are not all zero, white."""
@@ -49,7 +52,8 @@ class Prewhitened:
     def residual(self, rows: JointRows, values: Weights) -> Vector:
         """Give what the columns leave of the same rows, N m, what free ones take being judged when white."""
         left = rows.torque - rows.columns @ values
-        return np.asarray(left - rows.nuisance.columns @ self.nuisance.coefficients(self.whitening @ left))
+        free = self.nuisance.coefficients(self.white(left[:, None])[:, 0])
+        return np.asarray(left - rows.nuisance.columns.combined(free[:, None])[:, 0])
 
     def with_columns(self, kept: int, further: Matrix) -> "Prewhitened":
         """Keep the first columns and put others, not yet white, beside them."""
@@ -59,7 +63,9 @@ class Prewhitened:
             return replace(
                 self, acting=self.acting[:own], columns=before, inside=kept_inside, gram=self.gram[:own, :own]
             )
-        new, white, inside = _whiten(self.whitening, self.nuisance, further)
+        new = np.flatnonzero(further.any(axis=0))
+        white = self.white(further[:, new])
+        inside = self.nuisance.in_span(white)
         gram = np.empty((own + len(new), own + len(new)))
         gram[:own, :own] = self.gram[:own, :own]
         gram[:own, own:] = before.T @ white - kept_inside.T @ inside
@@ -76,13 +82,14 @@ class Prewhitened:
 
 def prewhiten(rows: JointRows, noise: ARNoise) -> Prewhitened:
     """Whiten one joint's rows."""
-    whitening, nuisance = _noise_of(rows, noise)
-    acting, columns, inside = _whiten(whitening, nuisance, rows.columns)
-    torque = nuisance.without_nuisance((whitening @ rows.torque)[:, None])[:, 0]
+    nuisance = _white_nuisance(rows, noise)
+    columns = noise.whitened(rows.acting_columns, rows.run_index)
+    inside = nuisance.in_span(columns)
+    torque = nuisance.without_nuisance(noise.whitened(rows.torque[:, None], rows.run_index))[:, 0]
     return Prewhitened(
         noise=noise,
-        whitening=whitening,
-        acting=acting,
+        run_index=rows.run_index,
+        acting=rows.acting,
         columns=columns,
         inside=inside,
         gram=_gram(columns, inside),
@@ -94,23 +101,11 @@ def prewhiten(rows: JointRows, noise: ARNoise) -> Prewhitened:
 
 def prewhitened_residual(rows: JointRows, noise: ARNoise, left: Matrix) -> EquationRows:
     """Prewhiten residuals of one joint's rows, a column each, on the complement of the nuisance columns."""
-    whitening, nuisance = _noise_of(rows, noise)
-    return nuisance.without_nuisance(whitening @ left)
+    return _white_nuisance(rows, noise).without_nuisance(noise.whitened(left, rows.run_index))
 
 
-def _noise_of(rows: JointRows, noise: ARNoise) -> tuple[csr_array, Nuisance]:
-    """Give what makes a joint's rows white, and its nuisance columns when white."""
-    whitening = noise.whitening(rows.run_index)
-    return whitening, nuisance_of(whitening @ rows.nuisance.columns)
-
-
-def _whiten(
-    whitening: csr_array, nuisance: Nuisance, columns: Matrix
-) -> tuple[Indices, EquationRows, EquationRows]:
-    """List the columns that act at all, and give them white, with what free ones span of them."""
-    acting = np.flatnonzero(columns.any(axis=0))
-    white = np.asarray(whitening @ columns[:, acting])
-    return acting, white, nuisance.in_span(white)
+def _white_nuisance(rows: JointRows, noise: ARNoise) -> Nuisance:
+    return nuisance_of(rows.nuisance.columns.prewhitened(rows.run_index, noise.weights))
 
 
 def _gram(columns: EquationRows, inside: EquationRows) -> SquareMatrix:

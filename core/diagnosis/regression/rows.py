@@ -2,13 +2,14 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from ...arrays import EquationRows, Indices, Matrix, Vector, Weights
 from ..dataset.dataset import Dataset
 from .ar_noise import run_indices
-from .nuisance import Nuisance, independent_columns, nuisance_of
+from .nuisance import Nuisance, independent_nuisance
 
 Columns = Mapping[int, EquationRows]
 """Per joint (from 0), rows x columns; a joint that is left out has zeros."""
@@ -27,6 +28,16 @@ class JointRows:
     nuisance: Nuisance
     """Nuisance columns: friction while the joint sticks."""
 
+    @cached_property
+    def acting(self) -> Indices:
+        """List the columns that are not all zero on the rows."""
+        return np.flatnonzero(self.columns.any(axis=0))
+
+    @cached_property
+    def acting_columns(self) -> EquationRows:
+        """Give those columns."""
+        return np.ascontiguousarray(self.columns[:, self.acting])
+
     def residual(self, values: Weights) -> Vector:
         """Give the residual of the columns, on the complement of the nuisance columns."""
         left = self.torque - self.columns @ values
@@ -44,7 +55,7 @@ def rows_of_joints(dataset: Dataset, columns: Sequence[Matrix], mask: np.ndarray
                 run_indices(dataset.follows(rows)),
                 columns[joint][rows],
                 dataset.torque[rows, joint],
-                nuisance_of(independent_columns(dataset.sticking[joint][rows])),
+                independent_nuisance(dataset.sticking[joint][rows]),
             )
         )
     return tuple(out)

@@ -85,7 +85,7 @@ class _Alike:
             if not len(present):
                 continue
             own = found.joints[joint]
-            white = own.whitening @ self._columns[joint]
+            white = own.white(self._columns[joint])
             inside = own.nuisance.in_span(white)
             right[present] += (found.left[joint] @ white).reshape(-1, width)
             both = own.columns.T @ white - own.inside.T @ inside
@@ -101,7 +101,7 @@ class _Alike:
 
 def _stack_columns(columns: Sequence[EquationRows], rows: Indices) -> EquationRows:
     """Put columns beside each other, and take some of their rows."""
-    return np.hstack(columns)[rows] if columns else np.zeros((len(rows), 0))
+    return np.concatenate(columns, axis=1)[rows] if columns else np.zeros((len(rows), 0))
 
 
 def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> list[Score]:
@@ -139,7 +139,7 @@ def _scores_from(
         fitted, inside, factor = (
             np.ascontiguousarray(table) for table in (own.columns, own.inside, own.nuisance.factor.T)
         )
-        free = (loose.data, loose.indices.astype(np.int32), loose.indptr.astype(np.int32))
+        free = (loose.values, loose.places, loose.begins)
         sum_from_onsets((*equations, fitted, *free), factor, inside, np.ascontiguousarray(first), sums)
         right += sums[0]
         squares += sums[1]

@@ -122,7 +122,7 @@ def _dependence(name: str, joint: int, unit: str, binned: _Binned, noise: ARNois
         coordinate=name,
         joint=joint,
         unit=unit,
-        centre=np.array([np.median(binned.values[label == number]) for number in range(len(count))]),
+        centre=_medians(binned.values[rows], label[rows], count),
         mean=mean,
         standard_error=np.sqrt(np.diag(covariance)),
         count=count,
@@ -130,6 +130,18 @@ def _dependence(name: str, joint: int, unit: str, binned: _Binned, noise: ARNois
         degrees_of_freedom=freedom,
         p_value=float(chi2.sf(statistic, freedom)),
     )
+
+
+def _medians(values: Vector, label: Indices, count: Indices) -> Vector:
+    """Give the median of every bin.
+
+    Examples
+    --------
+    >>> _medians(np.array([3.0, 1.0, 5.0, 2.0]), np.array([0, 1, 0, 0]), np.array([3, 1]))
+    array([3., 1.])
+    """
+    ordered, begins = values[np.lexsort((values, label))], np.cumsum(count) - count
+    return np.asarray(0.5 * (ordered[begins + (count - 1) // 2] + ordered[begins + count // 2]))
 
 
 def _bins(values: Vector, mask: np.ndarray) -> Indices:

@@ -22,22 +22,14 @@ from ...simulation.inverse import inverse_dynamics
 from ..causes.protocol import Cause
 from ..dataset.dataset import Dataset
 from ..regression.gls import Fit, fit, noise_absorbs_effect, refit
-from ..regression.rows import Columns, JointRows, append_columns, rows_of_joints
+from ..regression.rows import Columns, append_columns
 from ..regression.score_test import Panel, Score, score, score_onsets
 from ..thresholds.regression import NOISE
 from ..thresholds.search import REFINEMENT, SEARCH
 from .candidate_cache import CandidateCache, cache_at
 from .candidates import Candidates, extended_prediction, no_candidates
+from .fit_rows import FitRows
 from .hypothesis import Candidate, ColumnKey, Hypothesis, ScoredCandidate, best_of_kinds
-
-
-@dataclass(frozen=True, eq=False)
-class FitRows:
-    """Hold the rows of every joint: those that are fitted, those that are held out, and all of them."""
-
-    fitted: tuple[JointRows, ...]
-    held_out: tuple[JointRows, ...]
-    everywhere: tuple[JointRows, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +53,8 @@ class HypothesisFitter:
     """The candidate cache of an earlier operating point, if one was made."""
     _fixed_columns: dict[ColumnKey, Columns] = field(default_factory=dict)
     _panels: WeakKeyDictionary[CandidateCache, Panel] = field(default_factory=WeakKeyDictionary)
+    _none: dict[bool, Hypothesis] = field(default_factory=dict)
+    _absorbed: WeakKeyDictionary[Hypothesis, bool] = field(default_factory=WeakKeyDictionary)
 
     def linearised_at(self, found: Hypothesis) -> "HypothesisFitter":
         """Give a fitter whose operating point is what a hypothesis predicts.
@@ -81,22 +75,34 @@ class HypothesisFitter:
         nothing = no_candidates(self.dataset, self.plan.model)
         return replace(self, at=nothing, ordinary_noise=True, earlier=self._latest_cache)
 
+    def with_causes(self, causes: Sequence[Cause], prior: GaussianPrior | None) -> "HypothesisFitter":
+        """Give a fitter of the same rows that knows candidate causes, and a prior."""
+        none = self._none if prior is None and self.prior is None else {}
+        return replace(self, causes=tuple(causes), prior=prior, ordinary_noise=False, _none=none)
+
     def with_dataset(self, dataset: Dataset) -> "HypothesisFitter":
         """Give a fitter of a data set that holds other rows out; columns and candidate cache stay of use."""
-        return replace(
-            hypothesis_fitter(dataset, self.plan, self.causes, self.prior),
+        return HypothesisFitter(
+            dataset,
+            FitRows(dataset, self.rows.columns),
+            self.plan,
+            self.causes,
+            self.prior,
+            no_candidates(dataset, self.plan.model),
             earlier=self._latest_cache,
             _fixed_columns=self._fixed_columns,
         )
 
     def with_torque(self, torque: JointSeries) -> "HypothesisFitter":
         """Give a fitter of the same rows with another torque, for fits; its candidates stay as they are."""
-
-        def replaced(rows: tuple[JointRows, ...]) -> tuple[JointRows, ...]:
-            return tuple(replace(own, torque=torque[own.rows, joint]) for joint, own in enumerate(rows))
-
-        rows = FitRows(*map(replaced, (self.rows.fitted, self.rows.held_out, self.rows.everywhere)))
-        return replace(self, dataset=replace(self.dataset, torque=torque), rows=rows)
+        rows = self.rows.with_torque(torque)
+        return replace(
+            self,
+            dataset=replace(self.dataset, torque=torque),
+            rows=rows,
+            _none={},
+            _absorbed=WeakKeyDictionary(),
+        )
 
     @property
     def operating_point(self) -> Prediction:
@@ -158,7 +164,7 @@ class HypothesisFitter:
         (columns,) = self.columns([candidate])
         part = {joint: own[:, some] for joint, own in columns.items()}
         size = {
-            joint: float(np.sum((under.fit.joints[joint].whitening @ own[self.rows.fitted[joint].rows]) ** 2))
+            joint: float(np.sum(under.fit.joints[joint].white(own[self.rows.fitted[joint].rows]) ** 2))
             for joint, own in part.items()
         }
         largest = sorted(size, key=lambda joint: -size[joint])[: REFINEMENT.onset_joints]
@@ -199,6 +205,8 @@ class HypothesisFitter:
         Noise that has absorbed a large effect can lead to an inadmissible result; then all noise is estimated
         from the beginning.
         """
+        if start is None and not members:
+            return self._fit_none()
         columns = self.columns(members)
         rows = append_columns(self.rows.fitted, columns)
         if start is not None:
@@ -206,6 +214,13 @@ class HypothesisFitter:
             if found.admissible or start.members == members:
                 return found
         return self._hypothesis(members, columns, fit(rows, prior=self.prior, ordinary=self.ordinary_noise))
+
+    def _fit_none(self) -> Hypothesis:
+        """Fit the hypothesis without members, which no operating point changes, once."""
+        if self.ordinary_noise not in self._none:
+            found = fit(self.rows.fitted, prior=self.prior, ordinary=self.ordinary_noise)
+            self._none[self.ordinary_noise] = self._hypothesis((), (), found)
+        return self._none[self.ordinary_noise]
 
     def fit_without_each(self, now: Hypothesis) -> tuple[Hypothesis, ...]:
         """Fit a hypothesis without each of its members in turn; kept until another's are asked for."""
@@ -261,19 +276,17 @@ class HypothesisFitter:
 
         Never where noise is estimated from ordinary residuals already.
         """
-        rows = append_columns(self.rows.fitted, self.columns(under.members))
-        return not self.ordinary_noise and noise_absorbs_effect(rows, under.fit)
+        if self.ordinary_noise:
+            return False
+        if under not in self._absorbed:
+            rows = append_columns(self.rows.fitted, self.columns(under.members))
+            self._absorbed[under] = noise_absorbs_effect(rows, under.fit)
+        return self._absorbed[under]
 
 
 def hypothesis_fitter(
     dataset: Dataset, plan: ColumnPlan, causes: Sequence[Cause], prior: GaussianPrior | None = None
 ) -> HypothesisFitter:
     """Prepare the rows of a data set, with no operating point and no candidates yet."""
-    columns = dataset.observed(plan)
-    usable, held_out = dataset.usable, dataset.held_out[:, None]
-    rows = FitRows(
-        rows_of_joints(dataset, columns, usable & ~held_out),
-        rows_of_joints(dataset, columns, usable & held_out),
-        rows_of_joints(dataset, columns, np.ones_like(usable)),
-    )
+    rows = FitRows(dataset, dataset.observed(plan))
     return HypothesisFitter(dataset, rows, plan, tuple(causes), prior, no_candidates(dataset, plan.model))

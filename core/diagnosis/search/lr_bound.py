@@ -60,6 +60,6 @@ def _bias_by(found: Fit, effect: Effect) -> Weights:
     slope = np.zeros(len(found.values))
     for joint, torque in effect.items():
         part = found.joints[joint]
-        white = (part.whitening @ torque)[:, None]
+        white = part.white(torque[:, None])
         slope[part.acting] += (part.columns.T @ white - part.inside.T @ part.nuisance.in_span(white))[:, 0]
     return found.solve(slope[:, None])[:, 0]

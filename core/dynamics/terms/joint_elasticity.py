@@ -93,7 +93,8 @@ class _Link:
 def _swinging(gear: Gear, state: MotionState, band_hz: float) -> _Link:
     """Give how the link behind a transmission swings; cached for a scan."""
     load = smooth(gear.load(state)[:, None], state, band_hz)[:, 0]
-    inertia, mean = gear.inertia(state), float(np.mean(gear.inertia(state)))
+    inertia = gear.inertia(state)
+    mean = float(np.mean(inertia))
     if mean <= 0.0:  # no spring is found on such a link
         return _Link(np.ones_like(load), load, np.zeros_like(load), np.zeros_like(load))
     moved = np.maximum(inertia, LEAST_INERTIA * mean)
@@ -105,5 +106,7 @@ def smooth(values: JointSeries, state: MotionState, band_hz: float) -> JointSeri
     """Filter columns by a zero-phase low-pass; beyond its ends a series is continued by its end values."""
     response = kernel(min(band_hz, 0.4 / step_of(state)), 1.0 / step_of(state), 2)
     reach = len(response) // 2
-    padded = np.pad(values, ((reach, reach), (0, 0)), mode="edge")
+    padded = np.concatenate(
+        [np.repeat(values[:1], reach, axis=0), values, np.repeat(values[-1:], reach, axis=0)]
+    )
     return np.column_stack([np.convolve(column, response, mode="valid") for column in padded.T])

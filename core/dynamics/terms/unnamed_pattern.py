@@ -43,6 +43,13 @@ class Trace(OneJointTerm):
             Parameter(f"trace_{index}", self.joint, self.joint, "N m", None) for index in range(count)
         )
 
+    @property
+    def source(self) -> tuple[object, ...]:
+        """Name what the columns depend on besides the motion: the joint often does not matter."""
+        alike = self.pattern in ("speeds", "clock", "levels")
+        alike |= self.pattern == "angle" and FACTORS[int(self.numbers[2])] is np.ones_like
+        return self.pattern, self.numbers, 0 if alike else self.joint
+
     def columns(self, state: MotionState) -> list[Samples]:
         """Give the pattern's columns."""
         return PATTERNS[self.pattern](self.joint - 1, self.numbers, state)

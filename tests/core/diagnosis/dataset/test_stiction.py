@@ -6,7 +6,7 @@ import pytest
 from tests.core.diagnosis.scenes import look_at_arm
 from tests.core.dynamics.terms.motions import swinging
 from veritorque.core.diagnosis.dataset.dataset import Dataset
-from veritorque.core.diagnosis.regression.nuisance import independent_columns, nuisance_of
+from veritorque.core.diagnosis.regression.nuisance import independent_nuisance
 
 PARKED, MOVING = 1, 0
 
@@ -22,8 +22,7 @@ def is_masked(dataset: Dataset, joint: int) -> float:
     """Give the share of a joint's torque that free columns leave."""
     torque = dataset.torque[:, [joint]]
     return float(
-        np.std(nuisance_of(independent_columns(dataset.sticking[joint])).without_nuisance(torque))
-        / np.std(torque)
+        np.std(independent_nuisance(dataset.sticking[joint]).without_nuisance(torque)) / np.std(torque)
     )
 
 
@@ -37,5 +36,5 @@ def test_any_torque_of_a_joint_at_rest_is_taken_out_and_most_of_a_moving_ones_is
 def test_the_columns_of_a_rest_grow_with_its_length_and_overlap_with_their_neighbours_only(seconds):
     short, long = (parked_arm(one).sticking[PARKED] for one in (10.0, seconds))
     assert long.nnz == pytest.approx(seconds / 10.0 * short.nnz, rel=0.1)
-    bands = [nuisance_of(independent_columns(one)).factor.shape[0] for one in (short, long)]
+    bands = [independent_nuisance(one).factor.shape[0] for one in (short, long)]
     assert bands[1] == pytest.approx(bands[0], rel=0.1)

@@ -6,7 +6,12 @@ from scipy.sparse import csr_array
 
 from tests.core.diagnosis.processes import SLOW, exact_noise
 from veritorque.core.diagnosis.regression.ar_noise import run_indices
-from veritorque.core.diagnosis.regression.nuisance import independent_columns, nuisance_of
+from veritorque.core.diagnosis.regression.nuisance import (
+    independent_columns,
+    independent_nuisance,
+    nuisance_of,
+)
+from veritorque.core.numerics.short_columns import short_columns
 
 ROWS = 300
 
@@ -34,14 +39,14 @@ def dense_remainder(columns: np.ndarray, rows: np.ndarray) -> np.ndarray:
 def test_what_is_left_is_what_a_dense_projection_leaves(count):
     columns = bumps(count)
     rows = np.random.default_rng(1).normal(size=(ROWS, 4))
-    found = nuisance_of(independent_columns(csr_array(columns))).without_nuisance(rows)
+    found = independent_nuisance(csr_array(columns)).without_nuisance(rows)
     np.testing.assert_allclose(found, dense_remainder(columns, rows), atol=1e-9)
 
 
 def test_combinations_of_free_columns_vanish_whatever_their_size():
     columns = bumps(20)
     rows = columns @ np.random.default_rng(2).normal(size=(columns.shape[1], 3))
-    left = nuisance_of(independent_columns(csr_array(columns))).without_nuisance(rows)
+    left = independent_nuisance(csr_array(columns)).without_nuisance(rows)
     assert np.abs(left).max() < 1e-9 * np.abs(rows).max()
 
 
@@ -52,7 +57,7 @@ def test_columns_that_others_span_are_dropped_and_the_span_stays():
     assert kept.shape[1] == columns.shape[1]
     rows = np.random.default_rng(3).normal(size=(ROWS, 2))
     np.testing.assert_allclose(
-        nuisance_of(kept).without_nuisance(rows), dense_remainder(columns, rows), atol=1e-9
+        nuisance_of(short_columns(kept)).without_nuisance(rows), dense_remainder(columns, rows), atol=1e-9
     )
 
 
@@ -64,9 +69,7 @@ def test_independent_columns_all_stay():
 def test_rounding_does_not_decide_which_columns_are_independent():
     columns, rows = _fading(18), np.random.default_rng(5).normal(size=(ROWS, 4))
     rounded = columns * (1.0 + 2e-16 * np.random.default_rng(6).standard_normal(columns.shape))
-    left, again = (
-        nuisance_of(independent_columns(csr_array(one))).without_nuisance(rows) for one in (columns, rounded)
-    )
+    left, again = (independent_nuisance(csr_array(one)).without_nuisance(rows) for one in (columns, rounded))
     np.testing.assert_allclose(left, again, atol=1e-9)
 
 
@@ -84,7 +87,7 @@ def _fading(count: int, *, shapes: int = 9, width: int = 20, smooth: float = 4.0
 
 @pytest.mark.parametrize("count", [1, 12, 25])
 def test_products_less_those_of_the_parts_inside_are_products_of_what_is_left(count):
-    free = nuisance_of(independent_columns(csr_array(bumps(count))))
+    free = independent_nuisance(csr_array(bumps(count)))
     rows = np.random.default_rng(4).normal(size=(ROWS, 4))
     inside = free.in_span(rows)
     left = free.without_nuisance(rows)
@@ -97,7 +100,7 @@ def test_products_less_those_of_the_parts_inside_are_products_of_what_is_left(co
 )
 def test_nothing_is_taken_where_no_column_acts(columns):
     rows = np.ones((ROWS, 2))
-    free = nuisance_of(independent_columns(csr_array(columns)))
+    free = independent_nuisance(csr_array(columns))
     assert free.count == 0
     np.testing.assert_array_equal(free.without_nuisance(rows), rows)
 

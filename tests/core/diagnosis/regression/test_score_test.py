@@ -9,7 +9,7 @@ from scipy.stats import binom, chi2, kstest
 
 from tests.core.diagnosis.regression.gls_world import NOISE, Equations, smooth
 from veritorque.core.diagnosis.regression.gls import fit
-from veritorque.core.diagnosis.regression.nuisance import independent_columns, nuisance_of
+from veritorque.core.diagnosis.regression.nuisance import independent_nuisance
 from veritorque.core.diagnosis.regression.rows import Columns, JointRows, append_columns
 from veritorque.core.diagnosis.regression.score_test import score, score_onsets
 
@@ -75,7 +75,7 @@ def with_a_rest_within_another(joints: tuple[JointRows, ...]) -> tuple[JointRows
     rng, columns = np.random.default_rng(7), np.zeros((len(joints[0].rows), 3))
     for column, begin, end in ((0, 50, 90), (0, 200, 210), (1, 130, 140), (2, 135, 240)):
         columns[begin:end, column] = rng.normal(size=end - begin)
-    return (replace(joints[0], nuisance=nuisance_of(independent_columns(csr_array(columns)))), *joints[1:])
+    return (replace(joints[0], nuisance=independent_nuisance(csr_array(columns))), *joints[1:])
 
 
 @pytest.mark.parametrize("rests", ["moving", "resting half of the time", "resting within another rest"])

@@ -1,0 +1,89 @@
+"""Filter the columns of terms over the stretches of a data set, many at once."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
+
+import numpy as np
+
+from ...arrays import KeptSeries, Series
+from ...dynamics.term import Term
+from ...dynamics.terms.payload_change import Payload
+from ...dynamics.terms.unnamed_pattern import Trace
+from ...robot.model import RobotModel
+from .stretch import Stretch
+
+BATCH = 64
+"""Series that are filtered at once: as many as stay near the processor."""
+
+
+def term_columns(
+    terms: Sequence[Term], robot: RobotModel, stretches: Sequence[Stretch], rows: int
+) -> list[dict[int, np.ndarray]]:
+    """Give, per term and joint (from 0), the filtered rows per unit parameter.
+
+    Patterns that do not depend on the joint that they act on are filtered once for all joints.
+    """
+    alike: dict[object, list[int]] = {}
+    for index, term in enumerate(terms):
+        alike.setdefault(term.source if isinstance(term, Trace) else index, []).append(index)
+    found = _filtered([terms[indices[0]] for indices in alike.values()], robot, stretches, rows)
+    out: list[dict[int, np.ndarray]] = [{} for _ in terms]
+    for indices, columns in zip(alike.values(), found, strict=True):
+        for index in indices:
+            term = terms[index]
+            out[index] = (
+                dict(zip([term.joint - 1], columns.values(), strict=True))
+                if isinstance(term, Trace)
+                else columns
+            )
+    return out
+
+
+def _filtered(
+    terms: Sequence[Term], robot: RobotModel, stretches: Sequence[Stretch], rows: int
+) -> list[dict[int, np.ndarray]]:
+    shapes = [(term.entries(robot), len(term.parameters(robot))) for term in terms]
+    out = [{joint: np.zeros((rows, width)) for joint in dict(entries)} for entries, width in shapes]
+    for stretch in stretches:
+        for index, filtered in _filter(terms, robot, stretch):
+            for (joint, parameter), row in zip(shapes[index][0], filtered, strict=True):
+                out[index][joint][stretch.rows, parameter] += row
+    return out
+
+
+def _filter(terms: Sequence[Term], robot: RobotModel, stretch: Stretch) -> Iterator[tuple[int, KeptSeries]]:
+    """Filter the series of some terms over a stretch; give each term's with its number."""
+    batch: dict[int, Series] = {}
+    for index, term in enumerate(terms):
+        if isinstance(term, Payload):
+            yield index, onset_rows(term, robot, stretch)
+            continue
+        batch[index] = term.series(robot, stretch.state)
+        if sum(len(series) for series in batch.values()) >= BATCH:
+            yield from _filter_batch(batch, stretch)
+            batch.clear()
+    if batch:
+        yield from _filter_batch(batch, stretch)
+
+
+def _filter_batch(batch: Mapping[int, Series], stretch: Stretch) -> Iterator[tuple[int, KeptSeries]]:
+    ends = np.cumsum([len(series) for series in batch.values()])[:-1]
+    filtered = stretch.filtered(np.vstack(list(batch.values())))
+    yield from zip(batch, np.split(filtered, ends), strict=True)
+
+
+def onset_rows(body: Payload, robot: RobotModel, stretch: Stretch) -> KeptSeries:
+    """Give the filtered series of a body, from those of one that is always there.
+
+    Its onset is searched finely and its columns are many; away from the onset they are the other's, or zero.
+    """
+    time = stretch.state.time
+    begin = 0 if time is None else int(np.searchsorted(time, body.begin))
+    return stretch.begun(*_throughout(robot, body.link, stretch), begin)
+
+
+@lru_cache(maxsize=8)
+def _throughout(robot: RobotModel, link: int, stretch: Stretch) -> tuple[Series, KeptSeries]:
+    """Give the series of a body that was there all along, and what filtering them gives."""
+    series = Payload(0, link, -np.inf).series(robot, stretch.state)
+    return series, stretch.filtered(series)
