@@ -14,7 +14,6 @@ import numpy as np
 
 from ...arrays import Indices, JointSeries, Matrix, Vector
 from ...dynamics.prediction import Prediction
-from ...numerics.boosted_trees import TreeShape, predict_by_trees
 from ..dataset.dataset import Dataset
 from ..regression.ar_noise import ARNoise
 from ..thresholds.residual import PREDICTION
@@ -95,24 +94,28 @@ def _not_judged(joint: int, rows: int) -> Predictable:
 
 def _predict_held_out(features: Matrix, target: Vector, mask: np.ndarray, block: Indices, gap: int) -> Vector:
     """Predict every row in the mask from blocks that are neither its own nor near it."""
-    out, shape = np.full(len(target), np.nan), _shape()
-    for fold in range(PREDICTION.folds):
-        held = block % PREDICTION.folds == fold
-        near = np.convolve(held, np.ones(2 * gap + 1), mode="same") > 0.5
-        seen, asked = mask & ~near, mask & held
-        if seen.sum() >= 2 * PREDICTION.leaf_rows and asked.any():
-            out[asked] = predict_by_trees(features[seen], target[seen], features[asked], shape)
+    from sklearn.ensemble import HistGradientBoostingRegressor
+    from threadpoolctl import threadpool_limits
+
+    out = np.full(len(target), np.nan)
+    with threadpool_limits(limits=1):
+        for fold in range(PREDICTION.folds):
+            held = block % PREDICTION.folds == fold
+            near = np.convolve(held, np.ones(2 * gap + 1), mode="same") > 0.5
+            seen, asked = mask & ~near, mask & held
+            if seen.sum() < 2 * PREDICTION.leaf_rows or not asked.any():
+                continue
+            trees = HistGradientBoostingRegressor(
+                max_iter=PREDICTION.trees,
+                learning_rate=PREDICTION.rate,
+                max_leaf_nodes=PREDICTION.leaves,
+                min_samples_leaf=PREDICTION.leaf_rows,
+                max_bins=PREDICTION.quantiles,
+                early_stopping=False,
+                random_state=0,
+            )
+            out[asked] = trees.fit(features[seen], target[seen]).predict(features[asked])
     return out
-
-
-def _shape() -> TreeShape:
-    return TreeShape(
-        trees=PREDICTION.trees,
-        leaves=PREDICTION.leaves,
-        leaf_rows=PREDICTION.leaf_rows,
-        rate=PREDICTION.rate,
-        quantiles=PREDICTION.quantiles,
-    )
 
 
 def _gap(noise: ARNoise, block: Indices) -> int:

@@ -1,5 +1,7 @@
 """Hold the generic learner to silence on noise, and to finding what no listed cause describes."""
 
+import subprocess
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -84,3 +86,8 @@ def test_a_joint_that_hardly_moves_is_not_judged_while_the_others_are():
     first, *others = predictable_share(parked, residual, here.operating_point, noise)
     assert np.isnan([first.share, *first.interval, first.rms, *first.prediction]).all()
     assert all(np.isfinite([one.share, *one.interval, one.rms]).all() for one in others)
+
+
+def test_the_trees_are_loaded_only_where_they_are_grown():
+    code = "import sys, veritorque.core.diagnosis.residual.learner; sys.exit('sklearn' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
