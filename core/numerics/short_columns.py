@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 from scipy.sparse import csr_array
 
-from ..arrays import Indices, Matrix, SquareMatrix, Vector
+from ..arrays import EquationRows, Indices, Matrix, SquareMatrix, Vector, Weights
 
 _EXACT = {"nogil": True, "cache": True, "no_cfunc_wrapper": True, "error_model": "numpy"}
 _SUMS = {**_EXACT, "fastmath": {"contract", "nsz", "arcp", "reassoc"}}
@@ -33,11 +33,11 @@ class ShortColumns:
     """Where each row begins among them, and the end of the last."""
     count: int
 
-    def norms(self) -> Vector:
+    def norms(self) -> Weights:
         """Give the columns' Euclidean norms."""
         return np.sqrt(np.bincount(self.places, self.values**2, minlength=self.count))
 
-    def over(self, sizes: Vector) -> "ShortColumns":
+    def over(self, sizes: Weights) -> "ShortColumns":
         """Divide columns by sizes."""
         return replace(self, values=self.values / sizes[self.places])
 
@@ -48,12 +48,12 @@ class ShortColumns:
         )
         return ShortColumns(values, places, begins, self.count)
 
-    def combined(self, coefficients: Matrix) -> Matrix:
+    def combined(self, coefficients: Matrix) -> EquationRows:
         """Give combinations of the columns, a column of coefficients each."""
         found = _combine(self.values, self.places, self.begins, np.ascontiguousarray(coefficients))
         return np.asarray(found)
 
-    def products(self, rows: Matrix) -> Matrix:
+    def products(self, rows: Matrix) -> EquationRows:
         """Give the products with columns over the same rows: own columns x others."""
         found = _multiply(self.values, self.places, self.begins, self.count, np.ascontiguousarray(rows))
         return np.asarray(found)

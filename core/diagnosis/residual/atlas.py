@@ -15,7 +15,7 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve
 from scipy.stats import chi2
 
-from ...arrays import Indices, JointSeries, SquareMatrix, Vector
+from ...arrays import Indices, JointSeries, SquareMatrix, Vector, Weights
 from ...dynamics.prediction import Prediction
 from ..dataset.dataset import Dataset
 from ..regression.ar_noise import ARNoise, fit_ar_noise, run_indices
@@ -132,7 +132,7 @@ def _dependence(name: str, joint: int, unit: str, binned: _Binned, noise: ARNois
     )
 
 
-def _medians(values: Vector, label: Indices, count: Indices) -> Vector:
+def _medians(values: Vector, label: Indices, count: Indices) -> Weights:
     """Give the median of every bin.
 
     Examples
