@@ -22,7 +22,7 @@ def has_doubtful_unit(log: JointLog) -> bool:
 def _unexplained(fit: Fit) -> bool:
     observation = fit.observation
     factors = observation.joint_factors(observation.parts(fit.problem.held_out)[0])
-    limit = (0.01 * DOUBT.unexplained_percent) ** 2
+    limit = DOUBT.unexplained**2
     return any(
         factor.residual_square(fit.estimate.base[columns]) > limit * factor.torque_square
         for factor, columns in zip(factors, observation.columns_of, strict=True)

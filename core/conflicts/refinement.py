@@ -34,16 +34,16 @@ def _with_gravity_refined(path: Path, described: Setup, trials: Trials) -> Path:
         return _with_gravity(path, described, None, trials)
     if mountings == [len(path) - 1]:
         return path
-    corrected = last.with_gravity(described.robot.gravity)
-    tried = [
-        (outcome.score, hypothesis)
-        for hypothesis in CONFLICTS[Mounting.name].hypotheses(corrected, trials)
-        if (outcome := trials.outcome(trials.equations(hypothesis.setup))) is not None
-    ]
-    if not tried:
-        return path
-    best = min(tried, key=lambda pair: pair[0])[1]
-    return _better(path, _with_gravity(path, described, best, trials))
+    best = _best_mounting(last.with_gravity(described.robot.gravity), trials)
+    return path if best is None else min(path, _with_gravity(path, described, best, trials), key=cost)
+
+
+def _best_mounting(setup: Setup, trials: Trials) -> Hypothesis | None:
+    """Try every direction of gravity."""
+    listed = list(CONFLICTS[Mounting.name].hypotheses(setup, trials))
+    outcomes = [trials.outcome(trials.equations(hypothesis.setup)) for hypothesis in listed]
+    tried = [(outcome.score, place) for place, outcome in enumerate(outcomes) if outcome is not None]
+    return listed[min(tried)[1]] if tried else None
 
 
 def _with_gravity(path: Path, described: Setup, mounting: Hypothesis | None, trials: Trials) -> Path:
@@ -65,22 +65,21 @@ def _with_factors_refined(path: Path, channel: int, described: Setup, trials: Tr
     last = path[-1].hypothesis.setup
     missing = likeliest_factor(last, trials, _joint(last, channel))
     befores = [described, *(step.hypothesis.setup for step in path)]
-    own = [_factor(before, step.hypothesis, channel) for before, step in zip(befores, path, strict=False)]
-    whole = missing * float(np.prod(own))
-    first = next(place for place, factor in enumerate(own) if factor != 1.0)
+    factors = [_factor(before, step.hypothesis, channel) for before, step in zip(befores, path, strict=False)]
+    whole = missing * float(np.prod(factors))
+    first = next(place for place, factor in enumerate(factors) if factor != 1.0)
     steps = []
     for place, step in enumerate(path):
-        hypothesis = step.hypothesis
+        own = step.hypothesis
         if place == first:
-            hypothesis = factor_hypothesis(befores[place], _joint(befores[place], channel), whole)
-        elif own[place] != 1.0:
-            continue
+            own = factor_hypothesis(befores[place], _joint(befores[place], channel), whole)
         elif place > first:
-            setup = hypothesis.setup
-            change = whole / float(np.prod(own[: place + 1]))
-            hypothesis = replace(hypothesis, setup=with_factor(setup, _joint(setup, channel), change))
-        steps.append((step, hypothesis))
-    return _better(path, _judged(steps, trials))
+            change = whole / float(np.prod(factors[: place + 1]))
+            own = replace(own, setup=with_factor(own.setup, _joint(own.setup, channel), change))
+        if place == first or factors[place] == 1.0:
+            steps.append((step, own))
+    judged = _judged(steps, trials)
+    return path if judged is None else min(path, judged, key=cost)
 
 
 def _factor(before: Setup, step: Hypothesis, channel: int) -> float:
@@ -105,7 +104,3 @@ def _judged(steps: list[tuple[FoundConflict, Hypothesis]], trials: Trials) -> Pa
             return None
         out.append(replace(step, hypothesis=own, before=out[-1].after if out else step.before, after=after))
     return tuple(out)
-
-
-def _better(path: Path, other: Path | None) -> Path:
-    return path if other is None or cost(other) >= cost(path) else other

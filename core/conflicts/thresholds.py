@@ -11,8 +11,8 @@ class Doubt:
 
     cost: float = 1.05
     """Factor by which the consistency constraint raises the squared error."""
-    unexplained_percent: float = 10.0
-    """Per cent of a joint's RMS torque that the model leaves."""
+    unexplained: float = 0.1
+    """Share of a joint's RMS torque that the model leaves."""
 
 
 @dataclass(frozen=True)

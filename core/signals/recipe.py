@@ -8,19 +8,15 @@ from dataclasses import dataclass
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from scipy import signal
 
-from ..arrays import JointSeries, JointVector, Mask, Matrix, Samples
+from ..arrays import JointVector, Mask
 from ..errors import OptionError
 from ..log.model import JointLog
 from ..robot.joint_units import largest_of_kind
-from .derivative import differentiate_throughout
-from .noise_band import ATTENUATION, OUTWEIGHED, noise_cutoff, noise_floor
-from .resample import uniform_positions
+from .noise_band import ATTENUATION, OUTWEIGHED, noise_cutoff
+from .survey import Survey, survey_of
 from .zero_phase import HIGHEST_ORDER
 
-MOTION_SHARE = 0.995
-"""Share of a joint's velocity power that its motion band holds."""
 PARALLEL_OVER_MOTION = 10.0
 """The parallel filter passes ten times the motion's band. Products of the joints' motions lie above each of
 them."""
@@ -34,8 +30,6 @@ STILL_SHARE = 0.01
 TREMBLE_SHARE = 0.01
 """A joint slower than this share of the fastest one of its kind (turning or sliding) only trembles. Its
 spectrum is its encoder's."""
-NOISY_SHARE = 0.4
-"""Noise alone has half of its velocity's power above this share of the survey's low-pass."""
 HELD_OVER_RMS = 10.0
 """Where all joints of a kind are held, they stand at so many times their RMS speed: all the time."""
 LOWEST_SHARE = 0.05
@@ -45,8 +39,6 @@ FEWEST_ROWS, SHORTEST_SECONDS = 16, 1.0
 SLOWEST_SHARE = 0.5
 """A stretch sampled at less than this share of the log's rate is not used: all share one filter, and it would
 halve the band of the others."""
-_SURVEY_SECONDS = 60.0
-_SURVEYS = 8
 
 
 @dataclass(frozen=True)
@@ -148,7 +140,7 @@ def choose_recipe(log: JointLog, options: FilterOptions, prismatic: Mask | None 
 
 
 def _choose(log: JointLog, options: FilterOptions, prismatic: Mask) -> Recipe:
-    rate, survey = log.rate_hz, _survey(log, options.median_order)
+    rate, survey = log.rate_hz, survey_of(log, options.median_order)
     bands, speeds, slowest = survey.bands, survey.speeds, min(survey.slowest, *segment_rates(log))
     still_speed = _still_speed(survey, prismatic)
     moving = bands[speeds > still_speed]
@@ -208,7 +200,7 @@ def is_usable(rows: int, seconds: float, rate_hz: float) -> bool:
     return enough and rows - 1 >= SLOWEST_SHARE * rate_hz * seconds
 
 
-def _still_speed(survey: "_Survey", prismatic: Mask) -> JointVector:
+def _still_speed(survey: Survey, prismatic: Mask) -> JointVector:
     """Give the speed below which each joint stands, such that a joint held by its drive stands throughout.
 
     Where joints of both kinds are logged, a kind of which every joint shows noise only is held.
@@ -222,7 +214,7 @@ def _still_speed(survey: "_Survey", prismatic: Mask) -> JointVector:
     return still
 
 
-def _parallel_cutoff(survey: "_Survey", band: float, moving: Mask, rate_hz: float) -> tuple[float, str]:
+def _parallel_cutoff(survey: Survey, band: float, moving: Mask, rate_hz: float) -> tuple[float, str]:
     """Choose the parallel filter's cut-off (Hz) by the motion's band and the noise of positions; say why."""
     wide = PARALLEL_OVER_MOTION * band
     quiet = max(noise_cutoff(survey.positions, rate_hz, band, moving), LEAST_OVER_MOTION * band)
@@ -236,74 +228,3 @@ def _parallel_cutoff(survey: "_Survey", band: float, moving: Mask, rate_hz: floa
 
 def _or_default(asked: float | None, chosen: float) -> float:
     return chosen if asked is None else asked
-
-
-@dataclass(frozen=True, eq=False)
-class _Survey:
-    """Hold what a first look at a log shows."""
-
-    bands: JointVector
-    """Band of every joint's velocity, Hz."""
-    speeds: JointVector
-    """RMS speed of every joint (rad/s or m/s)."""
-    noisy: Mask
-    """Joints whose velocity is noise only."""
-    positions: list[JointSeries]
-    """The windows' positions on a uniform clock."""
-    slowest: float
-    """Mean rate (Hz) of the slowest window: rows that were never recorded make it less than the log's."""
-
-
-def _survey(log: JointLog, median_order: int) -> _Survey:
-    """Read band and speed of every joint from up to eight windows of the longest segment."""
-    start, stop = max(log.segments, key=lambda segment: segment[1] - segment[0])
-    length = min(stop - start, int(_SURVEY_SECONDS * log.rate_hz))
-    count = min(_SURVEYS, max(1, (stop - start) // length))
-    firsts = np.linspace(start, stop - length, count).astype(int)
-    read = [log.source.rows(int(first), int(first) + length) for first in firsts]
-    slowest = min((length - 1) / float(rows.time[-1] - rows.time[0]) for rows in read)
-    resampled = [uniform_positions(rows, log.rate_hz, median_order) for rows in read]
-    shortest = min(map(len, resampled))  # where stamps scatter, windows of as many rows last differently
-    positions = [position[:shortest] for position in resampled]
-    velocities = [_velocity(position, log.rate_hz) for position in positions]
-    speeds = np.sqrt(np.mean([np.mean(velocity**2, axis=0) for velocity in velocities], axis=0))
-    power = np.mean([_power(velocity, log.rate_hz) for velocity in velocities], axis=0)
-    frequency = np.fft.rfftfreq(2 * (power.shape[0] - 1), 1.0 / log.rate_hz)
-    bands, middles = (_band(frequency, power, share) for share in (MOTION_SHARE, 0.5))
-    noisy = middles > NOISY_SHARE * _low_pass_hz(log.rate_hz)
-    moving = bands[~noisy]
-    if len(moving):
-        noise = np.mean([noise_floor(one, log.rate_hz, float(moving.max())) for one in positions], axis=0)
-        passed = signal.sosfreqz(_low_pass(log.rate_hz), frequency, fs=log.rate_hz)[1]
-        shape = (2.0 * np.pi * frequency) ** 2 * np.abs(passed) ** 4
-        bands = _band(frequency, power - shape[:, None] * noise, MOTION_SHARE)
-    return _Survey(bands, speeds, noisy, positions, slowest)
-
-
-def _band(frequency: Samples, power: np.ndarray, share: float) -> JointVector:
-    """Give the frequency (Hz) below which a share of each joint's power lies.
-
-    What is left of noise of which the mean was subtracted has either sign, and adds up to little.
-    """
-    held = np.cumsum(power, axis=0)
-    return np.array([frequency[np.argmax(one >= share * one.max())] for one in held.T])
-
-
-def _low_pass(rate_hz: float) -> Matrix:
-    return np.asarray(signal.butter(2, _low_pass_hz(rate_hz), fs=rate_hz, output="sos"))
-
-
-def _low_pass_hz(rate_hz: float) -> float:
-    return min(0.2 * rate_hz, 40.0)
-
-
-def _velocity(position: JointSeries, rate_hz: float) -> JointSeries:
-    smooth = signal.sosfiltfilt(_low_pass(rate_hz), position, axis=0)
-    return differentiate_throughout(smooth, rate_hz)
-
-
-def _power(velocity: JointSeries, rate_hz: float) -> np.ndarray:
-    size = min(len(velocity), max(64, int(8.0 * rate_hz)))
-    _, power = signal.welch(velocity, rate_hz, nperseg=2 * (size // 2), axis=0, detrend=False)
-    floor = np.median(power[int(0.7 * len(power)) :], axis=0)
-    return np.asarray(np.maximum(power - floor, 0.0))

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ...arrays import JointVector
 from ...log.defects.plausibility import LARGEST_SPAN
 from ..conflict import Conflict, Hypothesis
 from ..setup import Setup
@@ -21,41 +22,42 @@ class Unit(Conflict):
     title = "Unit of a channel"
 
     def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
-        """Try the usual units, of all positions and channel by channel, in which a joint moves as joints do.
+        """Try the usual units, of all positions and channel by channel.
 
         A common factor on all torques is another body's, and none that a log could show.
         """
-        position, torque = setup.assignment.position, setup.assignment.torque
         turning = setup.revolute()
-        span = np.ptp(position.of(trials.samples.position, rate=True), axis=0)
-        expected = {joint for joint in turning if span[joint] > LARGEST_SPAN}
-        for unit, factor in _POSITION_UNITS.items() if len(turning) > 1 else ():
-            if UNIT.least_span <= factor * np.max(span[list(turning)]) <= LARGEST_SPAN:
-                yield Hypothesis(
-                    self.name,
-                    tuple(joint + 1 for joint in turning),
-                    "position",
-                    setup.with_position(position.scaled(factor, *turning)),
-                    f"the positions of all joints are in {unit}",
-                    f"declare all positions in {unit}",
-                    expected=bool(expected),
-                )
+        span = np.ptp(setup.assignment.position.of(trials.samples.position, rate=True), axis=0)
+        if len(turning) > 1:
+            yield from self._of_positions(setup, turning, "the positions of all joints are", span)
         for joint in range(setup.joints):
             for unit, factor in _TORQUE_UNITS.items():
-                yield self._of(joint, "torque", unit, setup.with_torque(torque.scaled(factor, joint)))
+                changed = setup.with_torque(setup.assignment.torque.scaled(factor, joint))
+                what = f"the torque of joint {joint + 1}"
+                yield Hypothesis(
+                    self.name,
+                    (joint + 1,),
+                    "torque",
+                    changed,
+                    f"{what} is in {unit}",
+                    f"declare {what} in {unit}",
+                )
         for joint in turning:
-            for unit, factor in _POSITION_UNITS.items():
-                if UNIT.least_span <= factor * span[joint] <= LARGEST_SPAN:
-                    changed = setup.with_position(position.scaled(factor, joint))
-                    yield self._of(joint, "position", unit, changed, expected=joint in expected)
+            yield from self._of_positions(setup, (joint,), f"the position of joint {joint + 1} is", span)
 
-    def _of(self, joint: int, channel: str, unit: str, setup: Setup, *, expected: bool = False) -> Hypothesis:
-        return Hypothesis(
-            self.name,
-            (joint + 1,),
-            "torque" if channel == "torque" else "position",
-            setup,
-            f"the {channel} of joint {joint + 1} is in {unit}",
-            f"declare the {channel} of joint {joint + 1} in {unit}",
-            expected,
-        )
+    def _of_positions(
+        self, setup: Setup, joints: tuple[int, ...], what: str, span: JointVector
+    ) -> Iterator[Hypothesis]:
+        """Try units in which joints move as joints do; expected where they do not as declared."""
+        widest = float(np.max(span[list(joints)]))
+        for unit, factor in _POSITION_UNITS.items():
+            if UNIT.least_span <= factor * widest <= LARGEST_SPAN:
+                yield Hypothesis(
+                    self.name,
+                    tuple(joint + 1 for joint in joints),
+                    "position",
+                    setup.with_position(setup.assignment.position.scaled(factor, *joints)),
+                    f"{what} in {unit}",
+                    f"declare {what.removesuffix(' is').removesuffix(' are')} in {unit}",
+                    expected=widest > LARGEST_SPAN,
+                )
