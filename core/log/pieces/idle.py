@@ -13,7 +13,7 @@ from .ends import JUMP_FACTOR, USUAL_SHARE
 
 _STATEMENTS = {
     "doubled_rows": "repeat the row before, stamp and all, and are left out",
-    "blank_rows": "are zero in all positions and efforts while the robot is elsewhere, and are left out",
+    "blank_rows": "are zero in all positions and efforts between rows that are not, and are left out",
 }
 
 
@@ -64,25 +64,31 @@ def _all_zero(rows: LogRows) -> SampleMask:
     return np.asarray(np.logical_and.reduce(zero))
 
 
-def _usual_step(position: JointSeries) -> JointVector:
+def _usual_step(channel: JointSeries) -> JointVector:
     """Give, per joint, a step that most steps do not exceed."""
-    steps = np.abs(np.diff(position, axis=0))
+    steps = np.abs(np.diff(channel, axis=0))
     known = steps[np.isfinite(steps).all(axis=1)]
     return np.quantile(known, USUAL_SHARE, axis=0) if len(known) else np.full(steps.shape[1], np.inf)
 
 
 def _blank(rows: LogRows) -> SampleMask:
-    """Mark short runs of zeros between rows at which a joint is too far from zero to have come from there."""
+    """Mark short runs of zeros between rows of which a position or an effort is too far from zero."""
     zero = _all_zero(rows)
     marks = np.zeros(len(zero), dtype=bool)
     if not zero.any() or zero.all():
         return marks
-    usual = _usual_step(rows.position[~zero])
+    channels = [values for values in (rows.position, rows.torque, rows.current) if values is not None]
+    far = [JUMP_FACTOR * _usual_step(values[~zero]) for values in channels]
     edges = np.flatnonzero(np.diff(zero, prepend=False, append=False))
     for start, stop in zip(edges[::2], edges[1::2], strict=True):
         if start == 0 or stop == len(zero) or stop - start > STANDING_ROWS:
             continue  # an end's, or a standstill
         if np.all(np.diff(rows.time[start - 1 : stop + 1]) >= 0.0):  # else the end of a run
-            nearest = np.minimum(np.abs(rows.position[start - 1]), np.abs(rows.position[stop]))
-            marks[start:stop] = np.any(nearest > JUMP_FACTOR * usual)
+            beside = zip(channels, far, strict=True)
+            marks[start:stop] = any(_leaves(values, most, start, stop) for values, most in beside)
     return marks
+
+
+def _leaves(values: JointSeries, far: JointVector, start: int, stop: int) -> bool:
+    """Tell whether the rows beside a run of zeros are both far from it."""
+    return bool(np.any(np.minimum(np.abs(values[start - 1]), np.abs(values[stop])) > far))

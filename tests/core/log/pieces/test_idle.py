@@ -50,3 +50,14 @@ def test_a_robot_that_passes_or_stands_at_zero_loses_no_row(tmp_path):
     log = read(tmp_path, TIME, position, torque)
     assert log.samples == 3000
     assert "blank_rows" not in {defect.kind for defect in log.defects}
+
+
+def test_zeros_of_a_lost_packet_are_told_by_the_efforts_where_all_joints_pass_zero(tmp_path):
+    """Position and rate are small there; the torque is not."""
+    position = np.column_stack([np.sin(2.0 * np.pi * TIME), np.sin(4.0 * np.pi * TIME)])
+    torque = TORQUE + 20.0
+    position[1000:1003] = torque[1000:1003] = 0.0
+    assert np.all(np.abs(position[[999, 1003]]) < 0.2)
+    log = read(tmp_path, TIME, position, torque)
+    assert {defect.kind: defect.count for defect in log.defects}["blank_rows"] == 3
+    assert "repeated_rows" not in {defect.kind for defect in log.defects}
