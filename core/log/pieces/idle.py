@@ -84,11 +84,11 @@ def _blank(rows: LogRows) -> SampleMask:
         if start == 0 or stop == len(zero) or stop - start > STANDING_ROWS:
             continue  # an end's, or a standstill
         if np.all(np.diff(rows.time[start - 1 : stop + 1]) >= 0.0):  # else the end of a run
-            beside = zip(channels, far, strict=True)
-            marks[start:stop] = any(_leaves(values, most, start, stop) for values, most in beside)
+            pairs = zip(channels, far, strict=True)
+            marks[start:stop] = any(_are_far(values[[start - 1, stop]], most) for values, most in pairs)
     return marks
 
 
-def _leaves(values: JointSeries, far: JointVector, start: int, stop: int) -> bool:
-    """Tell whether the rows beside a run of zeros are both far from it."""
-    return bool(np.any(np.minimum(np.abs(values[start - 1]), np.abs(values[stop])) > far))
+def _are_far(beside: JointSeries, far: JointVector) -> bool:
+    """Tell whether both rows beside a run of zeros are far from it."""
+    return bool(np.any(np.min(np.abs(beside), axis=0) > far))

@@ -1,7 +1,7 @@
 """Make residuals whose truth is known: the shipped arm's motion, its model's torque, noise and an effect."""
 
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +10,7 @@ from scipy.signal import lfilter
 from veritorque.core.diagnosis.dataset.dataset import Dataset, build_dataset
 from veritorque.core.diagnosis.regression.ar_noise import ARNoise
 from veritorque.core.diagnosis.regression.gls import fit
-from veritorque.core.diagnosis.regression.rows import rows_of_joints
+from veritorque.core.diagnosis.regression.rows import JointRows, rows_of_joints
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.log.reader import read_log
@@ -34,11 +34,21 @@ class World:
 
     def left(self, disturbance: np.ndarray) -> tuple[np.ndarray, tuple[ARNoise, ...]]:
         """Add a disturbance (rows x joints) to the model's torque and fit: residual and noise models."""
-        dataset = replace(self.dataset, torque=self.torque + disturbance)
-        columns = dataset.observed(self.plan)
-        found = fit(rows_of_joints(dataset, columns, dataset.clear))
-        predicted = np.column_stack([one @ found.values for one in columns])
-        return dataset.torque - predicted, tuple(one.noise for one in found.joints)
+        torque = self.torque + disturbance
+        rows = enumerate(self.rows)
+        found = fit(tuple(replace(one, torque=torque[one.rows, joint]) for joint, one in rows))
+        predicted = np.column_stack([one @ found.values for one in self.columns])
+        return torque - predicted, tuple(one.noise for one in found.joints)
+
+    @cached_property
+    def columns(self) -> tuple[np.ndarray, ...]:
+        """Give the model's columns, which no disturbance changes."""
+        return self.dataset.observed(self.plan)
+
+    @cached_property
+    def rows(self) -> tuple[JointRows, ...]:
+        """Give every joint's rows without a disturbance."""
+        return rows_of_joints(self.dataset, self.columns, self.dataset.clear)
 
     def noise(self, kind: str, seed: int) -> np.ndarray:
         """Draw noise at the log's rate and pass it through the data set's filter; of unit RMS per joint."""
