@@ -82,7 +82,7 @@ def test_rows_that_overtook_each_other_on_a_network_are_put_in_order():
 def test_rows_shuffled_under_stamps_that_stayed_are_refused_with_numbers(joints):
     time, position, torque = healthy(joints=joints)
     order = np.random.default_rng(2).permutation(len(time))
-    with pytest.raises(LogError, match="nothing to do with each other") as refusal:
+    with pytest.raises(LogError, match="do not continue each other") as refusal:
         log_from_arrays("lost", time, position[order], torque[order])
     assert refusal.value.evidence["steps_over_variance"] == pytest.approx([2.0] * joints, abs=0.1)
     assert "sort" not in refusal.value.remedy
