@@ -27,13 +27,13 @@ class Steps:
 
 
 def first_steps(setup: Setup, present: Outcome, trials: Trials) -> Steps:
-    """Try every hypothesis, and sort those that predict better than the set-up."""
+    """Try every hypothesis, and sort those that predict better than the set-up by more than chance."""
     listed = _bounded(setup, trials)
     margins = Margins.of(present, trials)
     needed = margins.needed(len(listed))
-    tried = [own for own in _tried(listed, present, trials, needed) if own.score < present.score]
+    tried = [own for own in _tried(listed, present, trials, needed) if own.score <= present.score - needed]
     best = min((own.score for own in tried), default=present.score)
-    limit = min(best + margins.undecided, present.score - needed)
+    limit = best + margins.undecided
     near = sorted(
         (own for own in tried if own.score < limit), key=lambda own: own.score > best + margins.equal
     )

@@ -81,12 +81,16 @@ def _blank(rows: LogRows) -> SampleMask:
     far = [JUMP_FACTOR * _usual_step(values[~zero]) for values in channels]
     edges = np.flatnonzero(np.diff(zero, prepend=False, append=False))
     for start, stop in zip(edges[::2], edges[1::2], strict=True):
-        if start == 0 or stop == len(zero) or stop - start > STANDING_ROWS:
-            continue  # an end's, or a standstill
-        if np.all(np.diff(rows.time[start - 1 : stop + 1]) >= 0.0):  # else the end of a run
+        if _is_inside(rows, int(start), int(stop)):
             pairs = zip(channels, far, strict=True)
             marks[start:stop] = any(_are_far(values[[start - 1, stop]], most) for values, most in pairs)
     return marks
+
+
+def _is_inside(rows: LogRows, start: int, stop: int) -> bool:
+    """Tell whether rows are few, and neither at an end of the log nor of a run."""
+    inside = 0 < start < stop < len(rows.time) and stop - start <= STANDING_ROWS
+    return inside and bool(np.all(np.diff(rows.time[start - 1 : stop + 1]) >= 0.0))
 
 
 def _are_far(beside: JointSeries, far: JointVector) -> bool:
