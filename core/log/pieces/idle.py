@@ -75,7 +75,7 @@ def _blank(rows: LogRows) -> SampleMask:
     """Mark short runs of zeros between rows of which a position or an effort is too far from zero."""
     zero = _all_zero(rows)
     marks = np.zeros(len(zero), dtype=bool)
-    if not zero.any() or zero.all():
+    if not 0 < np.count_nonzero(zero) < len(zero):
         return marks
     channels = [values for values in (rows.position, rows.torque, rows.current) if values is not None]
     far = [JUMP_FACTOR * _usual_step(values[~zero]) for values in channels]

@@ -171,7 +171,7 @@ def test_what_is_not_the_service_is_told_from_one_that_is_silent(lab):
     thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.01})
     thread.start()
     with Client(f"http://127.0.0.1:{server.server_port}", key="the-secret") as client:
-        with pytest.raises(NoAnswerError, match="does not speak as the service"):
+        with pytest.raises(NoAnswerError, match="does not answer as the service"):
             client.robots()
         assert (client.is_alive(), Foreign.heard) == (False, "Bearer the-secret")
     server.shutdown()
