@@ -14,7 +14,7 @@ CHAPTERS = (hdf5, matlab, npz, parquet, recordings, text)
 """Importing these fills `SPECIMENS`."""
 MAPPING = '{"profile": "ros-jointstate"}'
 """It changes nothing for other files, whose columns have default names."""
-MOST_SECONDS, MOST_MB = 2.0, 512.0
+MOST_SECONDS, MOST_MB = 2.0, 256.0
 MOST_OF_SOUND = 15.0
 """How many times as long as a sound log a file may take where the machine is too busy to count seconds."""
 

@@ -39,7 +39,10 @@ class Openings:
 
 
 class Memory:
-    """Follow the largest peak of memory, MB, among the processes that read uploads."""
+    """Follow the most memory, MB, that a process which reads uploads takes beyond its fork server's.
+
+    The server keeps what compiling took on a fresh machine.
+    """
 
     def __init__(self) -> None:
         self.peak_mb = 0.0
@@ -57,21 +60,25 @@ class Memory:
     def _follow(self) -> None:
         while not self._over.is_set():
             for reader in _readers():
-                self.peak_mb = max(self.peak_mb, _peak_mb(reader))
+                self.peak_mb = max(self.peak_mb, _memory_mb(reader, "VmHWM") - _memory_mb(_server(), "VmRSS"))
             time.sleep(LOOK_EVERY_S)
 
 
 def _readers() -> list[str]:
-    server = forkserver._forkserver._forkserver_pid
+    server = _server()
     try:
         return Path(f"/proc/{server}/task/{server}/children").read_text().split()
     except OSError:
         return []
 
 
-def _peak_mb(process: str) -> float:
+def _server() -> str:
+    return str(forkserver._forkserver._forkserver_pid)
+
+
+def _memory_mb(process: str, kind: str) -> float:
     try:
-        found = re.search(r"VmHWM:\s+(\d+) kB", Path(f"/proc/{process}/status").read_text())
+        found = re.search(rf"{kind}:\s+(\d+) kB", Path(f"/proc/{process}/status").read_text())
     except OSError:
         return 0.0
     return int(found[1]) / 1024.0 if found else 0.0
