@@ -29,7 +29,7 @@ class Normal:
 
     @cached_property
     def noise(self) -> JointVector:
-        """Weigh the joints by what least squares leaves of them, in a few rounds; see `bound`.
+        """Weigh the joints by what least squares leaves of them, in two rounds; see `bound`.
 
         Each round makes the mean logarithm of the errors smaller, towards one of several minima. So it begins
         from equal weights and from equal shares of the torques, and ends with what leaves less.

@@ -32,7 +32,7 @@ def cost(path: Path) -> float:
 
 @dataclass(frozen=True)
 class Margins:
-    """Hold the differences of scores (mean logarithms of errors) that say something."""
+    """Hold the differences of scores (mean logarithms of errors) that are significant."""
 
     independent: float
     """Independent values that judge."""

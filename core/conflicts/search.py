@@ -35,7 +35,7 @@ def _path(setup: Setup, present: Outcome, trials: Trials, most: int) -> Path:
     steps = first_steps(setup, present, trials)
     paths = list(_best(steps, trials, most))
     if most == TRIAL.most_corrections:
-        paths += _detours(steps, paths, present, trials)
+        paths += _alternatives(steps, paths, trials)
     return _chosen(paths, len(steps.best), Margins.of(present, trials)) if paths else ()
 
 
@@ -48,15 +48,14 @@ def _best(steps: Steps, trials: Trials, most: int) -> Iterator[Path]:
             return
 
 
-def _detours(steps: Steps, paths: list[Path], present: Outcome, trials: Trials) -> Iterator[Path]:
-    """Go on from the next best as long as a joint stays in doubt: two errors may hide each other."""
-    poor = all(map(_is_poor, [path[-1].after for path in paths] or [present]))
-    for step in steps.others if poor else ():
+def _alternatives(steps: Steps, paths: list[Path], trials: Trials) -> Iterator[Path]:
+    """Go on from the next best as long as all paths leave a joint in doubt: one error may mask another."""
+    poor = all(_is_poor(path[-1].after) for path in paths)
+    for step in steps.alternatives if poor else ():
         path = _from(step, trials, TRIAL.most_corrections)
-        if len(path) > 1 and cost(path) <= present.score - steps.chance:
-            yield path
-            if not _is_poor(path[-1].after):
-                return
+        yield path
+        if not _is_poor(path[-1].after):
+            return
 
 
 def _from(step: FoundConflict, trials: Trials, most: int) -> Path:
@@ -79,8 +78,8 @@ def _chosen(paths: list[Path], best: int, margins: Margins) -> Path:
     others = [path for path in paths if _corrections(path) != _corrections(chosen)]
     worse = [cost(path) - cost(chosen) for path in others]
     alike = [path[0].hypothesis for path, more in zip(others, worse, strict=True) if more < margins.undecided]
-    rivals = sum(margins.likelihood(more) for more in worse if more >= margins.undecided)
-    confidence = chosen[0].confidence if place < best else 1.0 / (1.0 + rivals)
+    against = sum(margins.likelihood(more) for more in worse if more >= margins.undecided)
+    confidence = chosen[0].confidence if place < best else 1.0 / (1.0 + against)
     return (replace(chosen[0], equivalents=tuple(alike), confidence=confidence), *chosen[1:])
 
 

@@ -18,12 +18,10 @@ from .trial import Equations, Outcome, Trials
 class Steps:
     """Hold first steps."""
 
-    best: Path = ()
+    best: Path
     """Those that predict best, first the most usual of those that predict alike."""
-    others: Path = ()
-    """The next best, behind which an error may hide that only another step corrects."""
-    chance: float = 0.0
-    """Logarithm of the error by which a path has to gain beyond what its corrections cost."""
+    alternatives: Path
+    """The next best: one error may mask another, so that the right first step is not the best."""
 
 
 def first_steps(setup: Setup, present: Outcome, trials: Trials) -> Steps:
@@ -38,10 +36,10 @@ def first_steps(setup: Setup, present: Outcome, trials: Trials) -> Steps:
         (own for own in tried if own.score < limit), key=lambda own: own.score > best + margins.equal
     )
     far = sorted((own for own in tried if own.score >= limit), key=lambda own: own.score)
-    rivals = [*(own.score for own in far), *[present.score] * len(listed)]
-    confidence = 1.0 / (1.0 + sum(margins.likelihood(score - best) for score in rivals))
-    steps = [own.step(present, confidence, near) for own in (*near, *far[: TRIAL.detours])]
-    return Steps(tuple(steps[: len(near)]), tuple(steps[len(near) :]), needed - DECISION.least_gain)
+    worse = [*(own.score for own in far), *[present.score] * len(listed)]
+    confidence = 1.0 / (1.0 + sum(margins.likelihood(score - best) for score in worse))
+    steps = [own.step(present, confidence, near) for own in (*near, *far[: TRIAL.alternatives])]
+    return Steps(tuple(steps[: len(near)]), tuple(steps[len(near) :]))
 
 
 @dataclass(frozen=True, eq=False)

@@ -27,8 +27,8 @@ class Trial:
     """Error relative to the RMS torque below which a joint cannot become better."""
     most_corrections: int = 3
     """Conflicts in one set-up."""
-    detours: int = 3
-    """First corrections beyond the best from which the search goes on where a joint stays in doubt."""
+    alternatives: int = 3
+    """Next best first corrections that are followed where the best leave a joint in doubt."""
 
 
 @dataclass(frozen=True)

@@ -76,19 +76,19 @@ def _ur10e(run: str) -> dict[str, object]:
 def test_ur10e_predicts_runs_it_has_not_seen_as_well_as_a_plain_fit_or_better(run):
     start, stop, floor = UR10E_UNSEEN[run]
     fitted = [measured_log("ur10e_open", *one) for one in UR10E_FIT]
-    unseen = measured_log("ur10e_open", run, start, stop)
-    _assert_at_most(_percents_of_all_rows("ur10e_open", *fitted, unseen, held_out=3), floor)
+    validation = measured_log("ur10e_open", run, start, stop)
+    _assert_at_most(_percents_of_all_rows("ur10e_open", *fitted, validation, held_out=3), floor)
 
 
-@pytest.mark.parametrize(("smooth", "train", "unseen"), [(False, 4.1, 5.1), (True, 3.84, 5.08)])
-def test_ur10e_predicts_a_motion_of_another_kind(smooth, train, unseen):
+@pytest.mark.parametrize(("smooth", "train", "validation"), [(False, 4.1, 5.1), (True, 3.84, 5.08)])
+def test_ur10e_predicts_a_motion_of_another_kind(smooth, train, validation):
     logs = (
         measured_log("ur10e_open", "fourier_30s_12h", 635, 3510),
         measured_log("ur10e_open", "validation_ptp_10pts", 700, 4200),
     )
     document = _document("ur10e_open", *logs, held_out=2, smooth_coulomb=smooth)
     assert document["fit_total_percent"] <= train
-    assert document["validation_total_percent"] <= unseen
+    assert document["validation_total_percent"] <= validation
 
 
 def test_ur10e_weighs_what_a_ur10e_weighs():
@@ -114,11 +114,11 @@ def _tx40(*, smooth: bool) -> dict[str, object]:
     return _document("staubli_tx40", *logs, held_out=2, smooth_coulomb=smooth)
 
 
-@pytest.mark.parametrize(("smooth", "train", "unseen"), [(False, 6.1, 9.6), (True, 5.1, 7.9)])
-def test_tx40_with_its_coupled_wrist_beats_the_other_tools(smooth, train, unseen):
+@pytest.mark.parametrize(("smooth", "train", "validation"), [(False, 6.1, 9.6), (True, 5.1, 7.9)])
+def test_tx40_with_its_coupled_wrist_beats_the_other_tools(smooth, train, validation):
     document = _tx40(smooth=smooth)
     found = np.array([document["fit_total_percent"], document["validation_total_percent"]])
-    _assert_at_most(found, f"{train} {unseen}")
+    _assert_at_most(found, f"{train} {validation}")
 
 
 def test_tx40_has_the_sixty_base_parameters_of_the_published_table():

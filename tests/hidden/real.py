@@ -37,7 +37,7 @@ def percents_of_all_rows(found: Identification) -> np.ndarray:
 
 
 def judge_by_what_no_fit_has_seen(found: Extension) -> None:
-    """Hold confident causes to a gain on unseen rows, of their own or identified, and their cure to one."""
+    """Hold confident causes to a gain on held-out rows, of their own or identified, and their cure to one."""
     searched = [one for one in found.diagnosis.findings if one.gain is not None]
     confident = [one for one in searched if one.confidence > SIZE.doubtful]
     assert all(one.proven or one.gain.interval_95[0] > 0.0 for one in confident)
@@ -46,7 +46,7 @@ def judge_by_what_no_fit_has_seen(found: Extension) -> None:
 
 
 def judge_rokae() -> None:
-    """Hold blocks in between to what `make test` asks of the unseen half of a Panda's run."""
+    """Hold blocks in between to what `make test` asks of the held-out half of a Panda's run."""
     found = diagnosed(measured_robot("rokae_xmate3"), measured_log("rokae_xmate3", "excit"))
     judge_by_what_no_fit_has_seen(found)
     before, after = (percents(one.validation) for one in (found.before, found.after))

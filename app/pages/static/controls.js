@@ -23,7 +23,7 @@ export function segments(legend, choices, value, changed) {
   return element(
     "fieldset",
     { class: "switch" },
-    element("legend", { class: "unseen" }, legend),
+    element("legend", { class: "visually-hidden" }, legend),
     Object.entries(choices).map(([key, label]) => {
       const input = element("input", {
         type: "radio",
@@ -51,7 +51,7 @@ export function menu(choices, value, changed, attributes = {}) {
 export function dropZone(label, hint, accept, taken) {
   const input = element("input", {
     type: "file",
-    class: "unseen",
+    class: "visually-hidden",
     accept,
     on: {
       change: () => {

@@ -78,7 +78,7 @@ function setting(studies) {
 function heads(first, others) {
   return element("thead", {}, element("tr", {},
     [first, side("Left", 1), side("Right", 2), ...others].map((name) => element("th", { scope: "col" }, name)),
-    others.length ? null : element("th", { scope: "col" }, element("span", { class: "unseen" }, "Comparison"))));
+    others.length ? null : element("th", { scope: "col" }, element("span", { class: "visually-hidden" }, "Comparison"))));
 }
 
 function side(name, colour) {
@@ -128,7 +128,7 @@ function table(studies, rows) {
   const only = studies.map((one, place) => one.document.base_parameters.filter((row) => !studies[1 - place].document.base_parameters.some((other) => other.name === row.name && other.unit === row.unit)).map((row) => row.name));
   if (!rows.length) return element("p", { class: "soft" }, `No common parameters: ${reasonApart(studies)}.`);
   return [element("p", { class: "hint" }, `z is the difference, right minus left, divided by its standard deviation. |z| > ${REAL} is significant.`),
-    wide(element("table", { class: "parameters narrow" }, heads("Parameter", ["Difference", "z", element("span", { class: "unseen" }, "z, drawn")]),
+    wide(element("table", { class: "parameters narrow" }, heads("Parameter", ["Difference", "z", element("span", { class: "visually-hidden" }, "z, drawn")]),
       element("tbody", {}, rows.map((row) => element("tr", {},
         element("th", { scope: "row" }, row.name, " ", element("span", { class: "unit" }, row.unit === "1" ? "" : row.unit)),
         [row.left, row.right].map((one) => element("td", {}, `${number(one.value)} ± ${number(one.standard_deviation, 2)}`)),

@@ -238,7 +238,7 @@ function summary(title, unit, traces, note) {
 }
 
 function numbers(title, unit, traces) {
-  return element("table", { class: "unseen" },
+  return element("table", { class: "visually-hidden" },
     element("caption", {}, `Minimum and maximum of ${title}${unit ? ` in ${unit}` : ""}`),
     element("thead", {}, element("tr", {}, ["trace", "minimum", "maximum"].map((name) => element("th", { scope: "col" }, name)))),
     element("tbody", {}, traces.map((trace) => element("tr", {}, element("th", { scope: "row" }, trace.label),

@@ -25,7 +25,7 @@ export function askQuestion(container) {
     element(
       "fieldset",
       { class: "questions" },
-      element("legend", { class: "unseen" }, "Analysis"),
+      element("legend", { class: "visually-hidden" }, "Analysis"),
       KINDS.map((offered) =>
         element(
           "label",

@@ -111,7 +111,7 @@ export function robotTable(container, { known, changed, finished }) {
             column.hint ? element("span", { class: "colhint" }, column.hint) : null,
           ),
         ),
-        element("th", { scope: "col" }, element("span", { class: "unseen" }, "Remove")),
+        element("th", { scope: "col" }, element("span", { class: "visually-hidden" }, "Remove")),
       ),
     );
     fill(

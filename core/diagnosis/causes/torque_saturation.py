@@ -42,7 +42,7 @@ class TorqueSaturation(OwnJointCause):
         return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
     def contradicted(self, at: Setting, solved: FittedCause) -> bool:
-        """Refuse a limit that the motion exceeds, and one that the log, which is the command, never reaches.
+        """Refuse a limit that the motion exceeds, and one that the commanded torque never reaches.
 
         While a drive is limited it applies the limit.
         """

@@ -1,4 +1,4 @@
-"""Rows that are held out stay unseen: whatever stands in them, fits and scans come out the same."""
+"""Rows that are held out do not act: whatever stands in them, fits and scans come out the same."""
 
 from dataclasses import replace
 

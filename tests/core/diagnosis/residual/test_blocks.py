@@ -1,4 +1,4 @@
-"""Hold the share on unseen blocks to truths that are known beforehand."""
+"""Hold the share on held-out blocks to truths that are known beforehand."""
 
 import numpy as np
 import pytest

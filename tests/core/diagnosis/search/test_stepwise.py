@@ -97,7 +97,7 @@ def test_a_push_that_lasts_is_an_event_and_a_few_spikes_are_none(effect, named):
     assert [name for name, _ in names(found)] == named
 
 
-def only_before_the_unseen_rows(state):
+def only_before_the_held_out_rows(state):
     """Put a large wave where rows are fitted and its opposite where they are not; a small one all along."""
     large = wave_effect({QUICK: 2.0})(state) * np.where(state.time < 16.0, 1.0, -1.0)[:, None]
     return large + wave_effect({QUICKER: 0.06})(state)
@@ -105,7 +105,7 @@ def only_before_the_unseen_rows(state):
 
 def test_a_cause_that_looks_small_beside_one_that_held_out_rows_refute_is_found_all_the_same():
     causes = (wave_cause("quick", {QUICK: 1.0}), wave_cause("quicker", {QUICKER: 1.0}))
-    fitter = fitter_of(measured_arm(only_before_the_unseen_rows), causes)
+    fitter = fitter_of(measured_arm(only_before_the_held_out_rows), causes)
     none = nothing_found(fitter)
     first, second = fitter.scan(none)
     assert first.candidate.cause.id == "quick"
