@@ -39,17 +39,20 @@ class Openings:
 
 
 class Memory:
-    """Follow the most memory, MB, that a process which reads uploads takes beyond its fork server's.
+    """Follow the most memory, MB, that a process which may read an upload takes from now on.
 
-    The server keeps what compiling took on a fresh machine.
+    Such processes are forks of one server, and so are those that compute jobs of other services in here.
+    Hence what counts is by how much the largest size of one grows: of a new one, beyond the server's.
     """
 
     def __init__(self) -> None:
         self.peak_mb = 0.0
+        self._before: dict[str, float] = {}
         self._over = threading.Event()
         self._thread = threading.Thread(target=self._follow, daemon=True)
 
     def __enter__(self) -> Self:
+        self._before = {fork: _memory_mb(fork, "VmHWM") for fork in _forks()}
         self._thread.start()
         return self
 
@@ -59,12 +62,13 @@ class Memory:
 
     def _follow(self) -> None:
         while not self._over.is_set():
-            for reader in _readers():
-                self.peak_mb = max(self.peak_mb, _memory_mb(reader, "VmHWM") - _memory_mb(_server(), "VmRSS"))
+            for fork in _forks():
+                before = self._before.setdefault(fork, _memory_mb(_server(), "VmRSS"))
+                self.peak_mb = max(self.peak_mb, _memory_mb(fork, "VmHWM") - before)
             time.sleep(LOOK_EVERY_S)
 
 
-def _readers() -> list[str]:
+def _forks() -> list[str]:
     server = _server()
     try:
         return Path(f"/proc/{server}/task/{server}/children").read_text().split()
@@ -77,6 +81,7 @@ def _server() -> str:
 
 
 def _memory_mb(process: str, kind: str) -> float:
+    """Give a size of a process, MB: VmRSS is the present one, VmHWM the largest."""
     try:
         found = re.search(rf"{kind}:\s+(\d+) kB", Path(f"/proc/{process}/status").read_text())
     except OSError:
