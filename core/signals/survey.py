@@ -8,10 +8,13 @@ from scipy import signal
 from ..arrays import JointSeries, JointVector, Mask, Matrix, Vector
 from ..log.model import JointLog
 from .derivative import differentiate_throughout
+from .noise_band import noise_floor
 from .resample import uniform_positions
 
 MOTION_SHARE = 0.995
 """Share of a joint's velocity power that its motion band holds."""
+LEAST_NOISE = 0.1 * (1.0 - MOTION_SHARE)
+"""Share of the power that noise has to hold to be subtracted: less hardly widens the band. Set by hand."""
 NOISY_SHARE = 0.4
 """Noise alone has half of its velocity's power above this share of the survey's low-pass."""
 _SURVEY_SECONDS = 60.0
@@ -51,11 +54,27 @@ def survey_of(log: JointLog, median_order: int) -> Survey:
     frequency = np.fft.rfftfreq(2 * (power.shape[0] - 1), 1.0 / log.rate_hz)
     bands, middles = (_band(frequency, power, share) for share in (MOTION_SHARE, 0.5))
     noisy = middles > NOISY_SHARE * _low_pass_hz(log.rate_hz)
+    if not noisy.all():
+        noise = _noise_power(positions, frequency, log.rate_hz, float(bands[~noisy].max()))
+        decides = noise.sum(axis=0) > LEAST_NOISE * power.sum(axis=0)
+        bands = _band(frequency, power - decides * noise, MOTION_SHARE)
     return Survey(bands, speeds, noisy, positions, slowest)
 
 
+def _noise_power(
+    positions: list[JointSeries], frequency: Vector, rate_hz: float, band_hz: float
+) -> np.ndarray:
+    """Give the power density of the noise of velocities, whose positions' density is that above a band."""
+    density = np.mean([noise_floor(position, rate_hz, band_hz) for position in positions], axis=0)
+    passed = np.abs(signal.sosfreqz(_low_pass(rate_hz), frequency, fs=rate_hz)[1]) ** 4
+    return np.asarray(np.outer((2.0 * np.pi * frequency) ** 2 * passed, density))
+
+
 def _band(frequency: Vector, power: np.ndarray, share: float) -> JointVector:
-    """Give the frequency (Hz) below which a share of each joint's power lies."""
+    """Give the frequency (Hz) below which a share of each joint's power lies.
+
+    What is left of noise of which the mean was subtracted has either sign, and adds up to little.
+    """
     held = np.cumsum(power, axis=0)
     return np.array([frequency[np.argmax(one >= share * one.max())] for one in held.T])
 
