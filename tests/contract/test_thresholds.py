@@ -60,7 +60,7 @@ NAMED = {
         "diagnosis/residual/period": "NEWTON_STEPS _TAPS _TAPS_OF_A_LOG _LONGEST_LAG _WHOLE _KAISER",
         "diagnosis/search/profile_likelihood": "RELATIVE_STEP LEAST_STEP WIDENINGS YIELDINGS SAME_SIZE",
     },
-    "units": {"audit/description": "UNITS", "conflicts/kinds/unit": "_TORQUE_UNITS _POSITION_UNITS"},
+    "units": {"audit/description": "UNITS", "conflicts/kinds/unit": "_PREFIXES _ANGLES _STROKES"},
     "effort": {
         "diagnosis/bandwidth": "_SAMPLES",
         "diagnosis/causes/dropped_samples": "ROWS",

@@ -1,63 +1,71 @@
-"""Test whether one channel, or all positions, come in another unit than declared."""
+"""Test whether one channel, or all angles, come in another unit than declared."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from ...arrays import JointVector
-from ...log.defects.plausibility import LARGEST_SPAN
+from ...log.channels import POSITIONS
+from ...robot.joint_units import joint_unit
 from ..conflict import Conflict, Hypothesis
 from ..setup import Setup
 from ..thresholds import UNIT
 from ..trial import Trials
 
-_TORQUE_UNITS = {"mN m": 1e-3, "kN m": 1e3}
-_POSITION_UNITS = {"deg": np.pi / 180.0, "rad though deg is declared": 180.0 / np.pi}
+_PREFIXES = {"m": 1e-3, "k": 1e3}
+_ANGLES = {"deg": np.pi / 180.0, "rad though deg is declared": 180.0 / np.pi}
+_STROKES = {"mm": 1e-3, "m though mm is declared": 1e3}
 
 
 class Unit(Conflict):
-    """Read the torque or position of one joint, or the positions of all, in another unit."""
+    """Read the effort or position of one joint, or the positions of all revolute joints, in another unit."""
 
     name = "unit"
     title = "Unit of a channel"
 
     def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
-        """Try the usual units, of all positions and channel by channel.
+        """Try the usual units, of all angles and channel by channel.
 
         A common factor on all torques is another body's, and none that a log could show.
         """
         turning = setup.revolute()
-        span = np.ptp(setup.assignment.position.of(trials.samples.position, rate=True), axis=0)
         if len(turning) > 1:
-            yield from self._of_positions(setup, turning, "the positions of all joints are", span)
+            yield from self._of_positions(setup, trials, turning, "the positions of all joints are")
         for joint in range(setup.joints):
-            for unit, factor in _TORQUE_UNITS.items():
-                changed = setup.with_torque(setup.assignment.torque.scaled(factor, joint))
-                what = f"the torque of joint {joint + 1}"
-                yield Hypothesis(
-                    self.name,
-                    (joint + 1,),
-                    "torque",
-                    changed,
-                    f"{what} is in {unit}",
-                    f"declare {what} in {unit}",
-                )
-        for joint in turning:
-            yield from self._of_positions(setup, (joint,), f"the position of joint {joint + 1} is", span)
+            yield from self._of_effort(setup, joint)
+        for joint in range(setup.joints):
+            yield from self._of_positions(setup, trials, (joint,), f"the position of joint {joint + 1} is")
+
+    def _of_effort(self, setup: Setup, joint: int) -> Iterator[Hypothesis]:
+        what = f"the torque of joint {joint + 1}"
+        for prefix, factor in _PREFIXES.items():
+            unit = prefix + joint_unit(setup.robot, joint + 1, "N m")
+            changed = setup.with_torque(setup.assignment.torque.scaled(factor, joint))
+            says, remedy = f"{what} is in {unit}", f"declare {what} in {unit}"
+            yield Hypothesis(self.name, (joint + 1,), "torque", changed, says, remedy)
 
     def _of_positions(
-        self, setup: Setup, joints: tuple[int, ...], what: str, span: JointVector
+        self, setup: Setup, trials: Trials, joints: tuple[int, ...], what: str
     ) -> Iterator[Hypothesis]:
         """Try units in which joints move as joints do; expected where they do not as declared."""
-        widest = float(np.max(span[list(joints)]))
-        for unit, factor in _POSITION_UNITS.items():
-            if UNIT.least_span <= factor * widest <= LARGEST_SPAN:
+        position = setup.assignment.position
+        span = float(np.max(np.ptp(position.of(trials.samples.position), axis=0)[list(joints)]))
+        units, least, most = _units(setup, joints)
+        for unit, factor in units.items():
+            if least <= factor * span <= most:
                 yield Hypothesis(
                     self.name,
                     tuple(joint + 1 for joint in joints),
                     "position",
-                    setup.with_position(setup.assignment.position.scaled(factor, *joints)),
+                    setup.with_position(position.scaled(factor, *joints)),
                     f"{what} in {unit}",
                     f"declare {what.removesuffix(' is').removesuffix(' are')} in {unit}",
-                    expected=widest > LARGEST_SPAN,
+                    expected=span > most,
                 )
+
+
+def _units(setup: Setup, joints: tuple[int, ...]) -> tuple[Mapping[str, float], float, float]:
+    """Give the units of joints of one kind, and how far such a joint moves at least and at most, rad or m."""
+    usual = {unit.name: unit.usual for unit in POSITIONS.units}
+    if set(joints) <= set(setup.revolute()):
+        return _ANGLES, UNIT.least_span, usual["rad"][1]
+    return _STROKES, *usual["m"]

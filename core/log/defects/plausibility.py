@@ -28,7 +28,8 @@ def _positions(facts: Facts) -> list[Defect]:
         if span > LARGEST_SPAN:
             statement = (
                 f"Joint {joint + 1} spans {span:.4g} rad, which is {span / (2 * np.pi):.3g} revolutions; "
-                f"read as degrees it would be {np.deg2rad(span):.3g} rad. Where it is the motor's angle, map "
+                f"read as degrees it would be {np.deg2rad(span):.3g} rad, and at a prismatic joint, read as "
+                f"millimetres, {1e-3 * span:.3g} m. Where it is the motor's angle, map "
                 "it with the scale 1 / gear ratio, and the motor's torque with the gear ratio. Nothing was "
                 "converted."
             )

@@ -98,6 +98,31 @@ def test_degrees_that_no_joint_could_turn_are_named_though_they_alone_make_the_f
     assert named[1:] in ([("gear_ratio", 1)], [("gear_ratio", 2)])
 
 
+@pytest.mark.parametrize("reversed_", [False, True])
+def test_a_slide_in_millimetres_is_named_and_not_its_force_in_another_unit(reversed_):
+    """Its own equation is the same with a force a thousand times larger; the size of the stroke is not."""
+    row = {"type": "revolute", "alpha": 0.0, "d": 0.0, "r": 0.0, "theta_offset": 0.0}
+    scara = [row, {**row, "d": 0.35}, {**row, "type": "prismatic", "alpha": np.pi, "d": 0.3}, row]
+    robot = robot_from_description({"name": "scara", "joints": scara})
+    model, state = standard_model(robot), swing(4, seed=9)
+    state = replace(
+        state,
+        **{
+            name: getattr(state, name) * [1.0, 1.0, 0.1, 1.0]
+            for name in ("position", "velocity", "acceleration")
+        },
+    )
+    torque = model.torque(true_parameters(model, seed=7), state)
+    torque += 0.01 * np.std(torque, axis=0) * np.random.default_rng(4).normal(size=torque.shape)
+    torque[:, 1] *= -1.0 if reversed_ else 1.0
+    time = np.arange(len(torque)) / 100.0
+    log = log_from_arrays("log", time, state.position * [1.0, 1.0, 1e3, 1.0], torque)
+    document = identify(IdentifyRequest(robot, (log,), PLAIN))
+    named = {(row["conflict"], *row["joints"], row["channel"]) for row in document["conflicts"]}
+    assert named == {("unit", 3, "position")} | ({("torque_sign", 2, "torque")} if reversed_ else set())
+    assert document["conflicts"][-1]["correction"]["mapping"]["position"]["scale"] == [1.0, 1.0, 1e-3, 1.0]
+
+
 @pytest.mark.parametrize("factor", [180.0 / np.pi, np.pi / 180.0])
 @pytest.mark.parametrize("swapped", [False, True])
 def test_positions_that_are_all_in_another_unit_are_named_beside_channels_that_are_exchanged(
