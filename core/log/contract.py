@@ -15,8 +15,6 @@ from .defects.stretch import Facts, Stretch
 
 FEWEST_ROWS = 100
 SHORTEST_SECONDS = 1.0
-WHOLE_TURN_TOLERANCE = 0.1
-"""Rad that a joint may move between two samples and still count as wrapped by a turn."""
 SHORTEST_STEP = 1e-6
 """Of time, in s: no drive is sampled at a megahertz."""
 UNRELATED, UNRELATED_SPREAD = 2.0, 6.0
@@ -82,7 +80,6 @@ class Contract:
         self._backwards = self._duplicates = 0
         self._hurried: float | None = None
         self._first_disorder: tuple[int, float, float] | None = None
-        self._wrapped: dict[int, tuple[int, float]] = {}
         self.low: dict[str, JointVector] = {}
         self.high: dict[str, JointVector] = {}
         self.start = self.stop = np.nan
@@ -90,7 +87,6 @@ class Contract:
     def accepts(self, stretch: Stretch) -> bool:
         """Take the next stretch into account; False once anything was found that must be refused."""
         self._order(stretch)
-        self._wraps(stretch)
         for name, values in stretch.new().items():
             self._extremes(name, values)
         return not (self._backwards or self._duplicates or self._hurried)
@@ -99,32 +95,6 @@ class Contract:
         low, high = values.min(axis=1), values.max(axis=1)
         self.low[name] = np.fmin(self.low.get(name, low), low)
         self.high[name] = np.fmax(self.high.get(name, high), high)
-
-    def _wraps(self, stretch: Stretch) -> None:
-        """Count steps of a whole turn between samples that otherwise move by a fraction of one."""
-        steps = np.abs(np.diff(stretch.position[:, stretch.first_new :], axis=1))
-        waits = np.diff(stretch.time[stretch.first_new :])
-        prompt = waits < 3.0 * np.median(waits)
-        turns = (np.abs(steps - 2.0 * np.pi) < WHOLE_TURN_TOLERANCE) & prompt
-        if not turns.any():
-            return
-        for joint in np.flatnonzero(turns.any(axis=1)):
-            if np.median(steps[joint]) < WHOLE_TURN_TOLERANCE:
-                count, first = self._wrapped.get(int(joint), (0, float(stretch.time[stretch.first_new + 1])))
-                at = float(stretch.time[stretch.first_new + int(np.argmax(turns[joint])) + 1])
-                self._wrapped[int(joint)] = (count + int(turns[joint].sum()), first if count else at)
-
-    def _check_wraps(self) -> None:
-        if not self._wrapped:
-            return
-        raise LogError(
-            "a position jumps by a whole turn from one sample to the next: the angle is wrapped",
-            evidence={
-                f"joint_{joint + 1}": {"jumps": count, "first_at_s": at}
-                for joint, (count, at) in sorted(self._wrapped.items())
-            },
-            remedy="unwrap the angles before uploading (numpy.unwrap), so that they follow the joint",
-        )
 
     def _order(self, stretch: Stretch) -> None:
         time = stretch.time[stretch.first_new :]
@@ -150,7 +120,6 @@ class Contract:
             With what was counted; rows count from 1, the header is none.
         """
         self._check_order()
-        self._check_wraps()
         if self._hurried is not None:
             raise LogError(
                 "the stamps are closer than those of any log",

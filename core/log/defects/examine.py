@@ -17,6 +17,7 @@ from ..model import Defect, LogSource
 from .bandwidth import Bandwidth
 from .clock import Clock, longest_bridge
 from .direction import Direction
+from .leaps import Leaps
 from .plausibility import plausibility_defects
 from .repeats import Repeats, cut
 from .resolution import Resolution
@@ -64,7 +65,7 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
         Resolution(samples),
     )
     repeats, bandwidth, spikes = Repeats(joints), Bandwidth(joints), Spikes(joints)
-    stuck = Stuck(joints, repeats)
+    stuck, leaps = Stuck(joints, repeats), Leaps(layout.si_units()["position"])
     finders: list[Finder] = [
         clock, repeats, stuck, Saturation(joints), resolution, Rest(samples), bandwidth, Direction(joints),
         Velocity(joints),
@@ -74,10 +75,12 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
         accepted = contract.accepts(stretch) and accepted
         if accepted:
             usual = spikes.taken_from(stretch)
+            leaps.update(usual)
             spread.update(usual)
             for finder in finders:
                 finder.update(usual)
     contract.check()
+    leaps.check()
     facts = Facts(
         samples=samples,
         start=contract.start,

@@ -1,19 +1,20 @@
-"""Find rows inside a log that say nothing: written twice, stamp and all, or zeros of a lost packet.
+"""Find rows inside a log that say nothing: written twice, stamp and all, or a lost packet's zeros.
 
-A recorder writes a row again where it flushes twice, and zeros where a packet is lost. Neither is a defect of
-the clock or of the motion, so that both are left out before these are judged.
+A recorder writes a row again where it flushes twice, and zeros where a packet is lost; counted from another
+zero, these are one row that comes again and again. Neither is a defect of the clock or of the motion, so that
+both are left out before these are judged.
 """
 
 import numpy as np
 
-from ...arrays import Indices, JointSeries, JointVector, SampleMask
+from ...arrays import Indices, JointMask, JointSeries, JointVector, Mask, SampleMask, Samples
 from ..defects.stretch import count_text
 from ..model import STANDING_ROWS, Defect, LogRows, rows_at
 from .ends import JUMP_FACTOR, USUAL_SHARE
 
 _STATEMENTS = {
     "doubled_rows": "repeat the row before, stamp and all, and are left out",
-    "blank_rows": "are zero in all positions and efforts between rows that are not, and are left out",
+    "blank_rows": "hold one value per column, mostly 0, far from the rows on either side, and are left out",
 }
 
 
@@ -57,11 +58,37 @@ def _doubled(rows: LogRows, last: LogRows | None) -> SampleMask:
     return marks
 
 
-def _all_zero(rows: LogRows) -> SampleMask:
-    """Mark the rows whose positions and efforts are all zero."""
-    channels = (rows.position, rows.torque, rows.current)
-    zero = [np.all(values == 0.0, axis=1) for values in channels if values is not None]
-    return np.asarray(np.logical_and.reduce(zero))
+def _blank(rows: LogRows) -> SampleMask:
+    """Mark short runs of one row, or of zeros, that a channel leaps into and out of on both sides.
+
+    A row that is held only because the recorder missed some continues the row before it, and is none of them.
+    """
+    channels = [values for values in (rows.position, rows.torque, rows.current) if values is not None]
+    marks = np.zeros(len(rows.time), dtype=bool)
+    held = marks.copy()
+    held[1:] = _everywhere([values[1:] == values[:-1] for values in channels])
+    zero = _everywhere([values == 0.0 for values in channels])
+    first = ~held & (zero | np.append(held[1:], False))
+    if not first.any():
+        return marks
+    own = ~held & ~zero
+    far = [JUMP_FACTOR * _usual_step(values[own]) for values in channels]
+    starts, edges = np.flatnonzero(first), np.append(np.flatnonzero(~held), len(held))
+    stops = edges[np.searchsorted(edges, starts) + 1]
+    inside = _are_inside(rows.time, starts, stops)
+    starts, stops = starts[inside], stops[inside]
+    leaps = np.zeros(len(starts), dtype=bool)
+    for values, most in zip(channels, far, strict=True):
+        into, out = (np.abs(values[starts] - values[beside]) for beside in (starts - 1, stops))
+        leaps |= np.any(np.minimum(into, out) > most, axis=1)
+    for start, stop in zip(starts[leaps], stops[leaps], strict=True):
+        marks[start:stop] = True
+    return marks
+
+
+def _everywhere(channels: list[JointMask]) -> SampleMask:
+    """Mark the rows in which something holds for all joints of all channels."""
+    return np.asarray(np.logical_and.reduce([np.all(values, axis=1) for values in channels]))
 
 
 def _usual_step(channel: JointSeries) -> JointVector:
@@ -71,28 +98,9 @@ def _usual_step(channel: JointSeries) -> JointVector:
     return np.quantile(known, USUAL_SHARE, axis=0) if len(known) else np.full(steps.shape[1], np.inf)
 
 
-def _blank(rows: LogRows) -> SampleMask:
-    """Mark short runs of zeros between rows of which a position or an effort is too far from zero."""
-    zero = _all_zero(rows)
-    marks = np.zeros(len(zero), dtype=bool)
-    if not 0 < np.count_nonzero(zero) < len(zero):
-        return marks
-    channels = [values for values in (rows.position, rows.torque, rows.current) if values is not None]
-    far = [JUMP_FACTOR * _usual_step(values[~zero]) for values in channels]
-    edges = np.flatnonzero(np.diff(zero, prepend=False, append=False))
-    for start, stop in zip(edges[::2], edges[1::2], strict=True):
-        if _is_inside(rows, int(start), int(stop)):
-            pairs = zip(channels, far, strict=True)
-            marks[start:stop] = any(_are_far(values[[start - 1, stop]], most) for values, most in pairs)
-    return marks
-
-
-def _is_inside(rows: LogRows, start: int, stop: int) -> bool:
-    """Tell whether rows are few, and neither at an end of the log nor of a run."""
-    inside = 0 < start < stop < len(rows.time) and stop - start <= STANDING_ROWS
-    return inside and bool(np.all(np.diff(rows.time[start - 1 : stop + 1]) >= 0.0))
-
-
-def _are_far(beside: JointSeries, far: JointVector) -> bool:
-    """Tell whether both rows beside a run of zeros are far from it."""
-    return bool(np.any(np.min(np.abs(beside), axis=0) > far))
+def _are_inside(time: Samples, starts: Indices, stops: Indices) -> Mask:
+    """Tell which runs are short, and neither at an end of the log nor of a part that its stamps end."""
+    backwards = np.append(0, np.cumsum(np.diff(time) < 0.0))
+    inner = (starts > 0) & (stops < len(time)) & (stops - starts <= STANDING_ROWS)
+    before, behind = np.maximum(starts - 1, 0), np.minimum(stops, len(time) - 1)
+    return np.asarray(inner & (backwards[before] == backwards[behind]))

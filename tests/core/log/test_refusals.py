@@ -227,6 +227,31 @@ def test_angles_wrapped_at_half_a_turn_are_refused_with_the_joint_and_the_jumps(
     assert "unwrap" in error.remedy
 
 
+def leapt(by, rows=slice(1000, None)):
+    def change(columns):
+        columns["q_2"][rows] += by
+
+    return spoiled(change)
+
+
+@pytest.mark.parametrize("by", [0.11, -0.5, 360.0])
+def test_a_position_that_leaps_while_others_move_on_is_refused_with_row_and_size(by, tmp_path):
+    error = refusal(leapt(by), tmp_path)
+    assert set(error.evidence) == {"joint_2"}
+    assert error.evidence["joint_2"]["jumps"] == 1
+    assert error.evidence["joint_2"]["largest_rad"] == pytest.approx(abs(by), abs=0.06)
+    assert "unwrap" in error.remedy or "leap" in error.remedy
+
+
+def test_a_stretch_that_was_not_recorded_is_no_leap_of_a_joint(tmp_path):
+    """Every moving joint is farther on at once, though the stamps go on evenly."""
+    columns = swing()
+    kept = {name: np.delete(values, slice(700, 760)) for name, values in columns.items()}
+    kept["time"] = columns["time"][: len(kept["time"])]
+    write_csv(tmp_path / "log.csv", kept)
+    assert read_log(tmp_path / "log.csv").samples == len(kept["time"])
+
+
 def test_too_few_rows_over_a_long_time_are_told_how_many_rows_it_takes(tmp_path):
     error = refusal(swing(seconds=30.0, rate_hz=2.0), tmp_path)
     assert error.evidence == {"rows": 60, "at_least": 100}

@@ -61,3 +61,20 @@ def test_zeros_of_a_lost_packet_are_told_by_the_efforts_where_all_joints_pass_ze
     log = read(tmp_path, TIME, position, torque)
     assert {defect.kind: defect.count for defect in log.defects}["blank_rows"] == 3
     assert "repeated_rows" not in {defect.kind for defect in log.defects}
+
+
+def test_a_lost_packet_is_told_whatever_its_zeros_have_become(tmp_path):
+    """Offsets and factors of a set-up turn them into any other row."""
+    position, torque = POSITION.copy(), TORQUE.copy()
+    for first in (900, 1500):
+        position[first : first + 3], torque[first : first + 3] = (0.0, -np.pi), (0.0, 4.0)
+    log = read(tmp_path, TIME, position, torque)
+    assert {defect.kind: defect.count for defect in log.defects}["blank_rows"] == 6
+
+
+def test_rows_that_a_recorder_held_are_no_lost_packet(tmp_path):
+    position, torque = POSITION.copy(), TORQUE.copy()
+    position[900:915], torque[900:915] = position[900], torque[900]
+    log = read(tmp_path, TIME, position, torque)
+    assert log.samples == 3000
+    assert {defect.kind for defect in log.defects} == {"repeated_rows"}

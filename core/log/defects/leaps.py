@@ -1,0 +1,131 @@
+"""Refuse positions that leap: an angle that is wrapped, or a joint that is counted on from another zero.
+
+A motion of limited bandwidth, sampled well, steps from row to row much as it did just before. A step that is
+many times the steps on either side, and all usual ones, is no motion of that joint. Rows that a recorder has
+missed look alike, but then every moving joint is farther on at once; a position that was held, or is, belongs
+to a channel that hangs. A step of a whole turn is a wrapped angle, whatever else there is.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...arrays import Mask, Samples, Series
+from ...errors import LogError
+from .stretch import Stretch
+
+LEAP = 6.0
+"""A leap is so many times the usual largest step of its joint, and the steps on either side."""
+USUAL_SHARE = 0.99
+"""Of the steps that are not zero: these are no more than the usual largest one."""
+GRID_STEPS = 3.0
+"""A leap is more than so many of the smallest steps of its joint."""
+MOVING = 0.1
+"""A joint moves that steps by this share of its mean step."""
+ON_TIME = 2.0
+"""A moving joint that steps by less than so many times its steps on either side has missed no row."""
+TURNS = (2.0 * np.pi, 360.0)
+"""Rad, and degrees that were declared as rad."""
+TURN_SHARE = 0.016
+"""Of a turn, by which a joint may move between two samples and still count as wrapped: 0.1 rad."""
+PROMPT = 3.0
+"""Between samples farther apart than so many usual intervals a joint may get anywhere."""
+
+
+class Leaps:
+    """Count the steps between neighbouring samples that no motion explains.
+
+    Parameters
+    ----------
+    units
+        SI unit of each joint's position.
+    """
+
+    def __init__(self, units: Sequence[str]) -> None:
+        self._units = units
+        self._wrapped: dict[int, list[tuple[float, float]]] = {}
+        self._moved: dict[int, list[tuple[float, float]]] = {}
+
+    def update(self, stretch: Stretch) -> None:
+        """Take the next stretch into account; its last step is judged with the one after it, in the next."""
+        steps, waits = np.abs(np.diff(stretch.position, axis=1)), np.diff(stretch.time)
+        prompt = waits < PROMPT * np.median(waits)
+        prompt[: max(stretch.context - 2, 0)] = prompt[-1] = False
+        for joint, own in enumerate(steps):
+            far = np.flatnonzero(prompt & (own > LEAP * own.mean()))
+            if not len(far):
+                continue
+            wrapped = _is_turn(own)[far]
+            moved = ~wrapped & _stands_alone(own)[far]
+            if moved.any():
+                moved &= own[far] > LEAP * _usual(own)
+                moved &= np.delete(_goes_on(steps), joint, axis=0)[:, far].any(axis=0)
+            for found, marks in ((self._wrapped, wrapped), (self._moved, moved)):
+                leaps = [(float(stretch.time[at + 1]), float(own[at])) for at in far[marks]]
+                found.setdefault(joint, []).extend(leaps)
+
+    def check(self) -> None:
+        """Refuse the log if a position leaps.
+
+        Raises
+        ------
+        LogError
+            With how often each joint leaps, where first, and how far at most.
+        """
+        if any(self._wrapped.values()):
+            raise LogError(
+                "a position jumps by a whole turn from one sample to the next: the angle is wrapped",
+                evidence=self._evidence(self._wrapped),
+                remedy="unwrap the angles before uploading (numpy.unwrap), so that they follow the joint",
+            )
+        if any(self._moved.values()):
+            raise LogError(
+                "a position leaps from one sample to the next, while another joint moves on as before",
+                evidence=self._evidence(self._moved),
+                remedy="take the leap out of all samples behind it if the joint is counted from another zero "
+                "there, or wrapped in another unit than the declared one; else send the parts as two logs",
+            )
+
+    def _evidence(self, found: dict[int, list[tuple[float, float]]]) -> dict[str, object]:
+        return {
+            f"joint_{joint + 1}": {
+                "jumps": len(leaps),
+                "first_at_s": leaps[0][0],
+                f"largest_{self._units[joint]}": max(step for _, step in leaps),
+            }
+            for joint, leaps in sorted(found.items())
+            if leaps
+        }
+
+
+def _usual(own: Samples) -> float:
+    """Give the usual largest step of a joint, or what its resolution makes of it."""
+    taken = own[own > 0.0]
+    return float(max(np.quantile(taken, USUAL_SHARE), GRID_STEPS / LEAP * taken.min()))
+
+
+def _is_turn(own: Samples) -> Mask:
+    """Mark the steps of a whole turn of a joint that otherwise moves by a fraction of one."""
+    marks = np.zeros(len(own), dtype=bool)
+    for turn in TURNS:
+        if np.median(own) < TURN_SHARE * turn:
+            marks |= np.abs(own - turn) < TURN_SHARE * turn
+    return marks
+
+
+def _beside(own: Samples) -> tuple[Samples, Samples]:
+    """Give the step before and the step after each one; past an end of the samples nothing is known."""
+    return np.append(np.inf, own[:-1]), np.append(own[1:], np.inf)
+
+
+def _stands_alone(own: Samples) -> Mask:
+    """Mark the steps that are many times those on either side, where the joint moves on both."""
+    before, after = _beside(own)
+    marks: Mask = (own > LEAP * np.maximum(before, after)) & (np.minimum(before, after) > 0.0)
+    return marks
+
+
+def _goes_on(steps: Series) -> np.ndarray:
+    """Mark the steps of every joint that belong to a motion which misses no row."""
+    marks = [(own > MOVING * own.mean()) & (own < ON_TIME * np.minimum(*_beside(own))) for own in steps]
+    return np.array(marks)
