@@ -54,9 +54,17 @@ def main(arguments: Sequence[str]) -> int:
     }
     text = json.dumps(coefficients(found) | {"provenance": provenance}, indent=2) + "\n"
     sys.stdout.write(f"before: Brier {brier(Calibration.read(), checked):.4f} on the checked seeds\n{text}")
+    if asked.write and against(found):
+        sys.stdout.write(f"not written: {', '.join(against(found))} would count against a finding\n")
+        return 1
     if asked.write:
         CALIBRATION.write_text(text, encoding="utf-8")
     return 0
+
+
+def against(model: Calibration) -> list[str]:
+    """Name the evidence that a model counts against a finding: it was fitted to too few that are wrong."""
+    return [name for name, value in coefficients(model).items() if name != "offset" and value < 0.0]
 
 
 def fit(samples: Sequence[Sample]) -> Calibration:

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from tests.hidden.calibrate import Sample, brier, fit, reliability
+from tests.hidden.calibrate import Sample, against, brier, fit, reliability
 from veritorque.core.diagnosis.checks.confidence import CALIBRATION, Calibration, coefficients, probability
 
 TRUE = Calibration(offset=-0.5, per_strength=1.2, per_lead=0.4, per_gain=0.3)
@@ -33,3 +33,8 @@ def test_the_file_that_the_code_reads_states_every_coefficient():
     assert all(np.isfinite(list(coefficients(read).values())))
     assert 0.0 < probability(read, (-1.0, -1.0, -1.0)) < probability(read, (2.0, 4.0, 1.0)) < 1.0
     assert CALIBRATION.name == "confidence.json"
+
+
+def test_no_evidence_counts_against_a_finding():
+    assert against(Calibration.read()) == []
+    assert against(Calibration(3.0, 1.0, -0.3, 0.5)) == ["per_lead"]
