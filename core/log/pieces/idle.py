@@ -59,31 +59,33 @@ def _doubled(rows: LogRows, last: LogRows | None) -> SampleMask:
 
 
 def _blank(rows: LogRows) -> SampleMask:
-    """Mark short runs of one row, or of zeros, that a channel leaps into and out of on both sides.
+    """Mark short runs of one row, or of zeros, that a channel leaps into and out of.
 
-    A row that is held only because the recorder missed some continues the row before it, and is none of them.
+    A row that is held because the recorder missed some continues the row before it, and is none of them.
     """
     channels = [values for values in (rows.position, rows.torque, rows.current) if values is not None]
-    marks = np.zeros(len(rows.time), dtype=bool)
-    held = marks.copy()
+    held = np.zeros(len(rows.time), dtype=bool)
     held[1:] = _everywhere([values[1:] == values[:-1] for values in channels])
     zero = _everywhere([values == 0.0 for values in channels])
-    first = ~held & (zero | np.append(held[1:], False))
-    if not first.any():
-        return marks
-    own = ~held & ~zero
-    far = [JUMP_FACTOR * _usual_step(values[own]) for values in channels]
-    starts, edges = np.flatnonzero(first), np.append(np.flatnonzero(~held), len(held))
-    stops = edges[np.searchsorted(edges, starts) + 1]
-    inside = _are_inside(rows.time, starts, stops)
-    starts, stops = starts[inside], stops[inside]
-    leaps = np.zeros(len(starts), dtype=bool)
-    for values, most in zip(channels, far, strict=True):
+    starts, stops = _short_runs(rows.time, held, zero)
+    leapt = np.zeros(len(starts), dtype=bool)
+    for values in channels if len(starts) else ():
         into, out = (np.abs(values[starts] - values[beside]) for beside in (starts - 1, stops))
-        leaps |= np.any(np.minimum(into, out) > most, axis=1)
-    for start, stop in zip(starts[leaps], stops[leaps], strict=True):
-        marks[start:stop] = True
-    return marks
+        far = JUMP_FACTOR * _usual_step(values[~held & ~zero])
+        leapt |= np.any(np.minimum(into, out) > far, axis=1)
+    edges = np.zeros(len(held) + 1, dtype=int)
+    np.add.at(edges, starts[leapt], 1)
+    np.add.at(edges, stops[leapt], -1)
+    return np.asarray(np.cumsum(edges[:-1]) > 0)
+
+
+def _short_runs(time: Samples, held: SampleMask, zero: SampleMask) -> tuple[Indices, Indices]:
+    """Give first rows of the runs of one row, or of zeros, inside the log, and the rows behind them."""
+    starts = np.flatnonzero(~held & (zero | np.append(held[1:], False)))
+    edges = np.append(np.flatnonzero(~held), len(held))
+    stops = edges[np.searchsorted(edges, starts) + 1]
+    inside = _are_inside(time, starts, stops)
+    return starts[inside], stops[inside]
 
 
 def _everywhere(channels: list[JointMask]) -> SampleMask:

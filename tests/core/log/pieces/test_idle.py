@@ -72,6 +72,14 @@ def test_a_lost_packet_is_told_whatever_its_zeros_have_become(tmp_path):
     assert {defect.kind: defect.count for defect in log.defects}["blank_rows"] == 6
 
 
+def test_two_lost_packets_of_different_rows_in_a_row_are_both_left_out(tmp_path):
+    position, torque = POSITION.copy(), TORQUE.copy()
+    position[900:903], torque[900:903] = (0.0, -np.pi), (0.0, 4.0)
+    position[903:906], torque[903:906] = (9.0, 0.0), (0.0, -4.0)
+    log = read(tmp_path, TIME, position, torque)
+    assert {defect.kind: defect.count for defect in log.defects}["blank_rows"] == 6
+
+
 def test_rows_that_a_recorder_held_are_no_lost_packet(tmp_path):
     position, torque = POSITION.copy(), TORQUE.copy()
     position[900:915], torque[900:915] = position[900], torque[900]
