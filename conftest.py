@@ -6,6 +6,7 @@ without, and others check the first calls of each function (see `tests.shapes`).
 """
 
 import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -50,6 +51,12 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],  # speed is measured in benchmarks, not on a shared machine
 )
 settings.load_profile("veritorque")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Compile the kernels once, before several processes that each would compile all of them are started."""
+    if getattr(config.option, "numprocesses", None):
+        subprocess.run([sys.executable, "-c", "import veritorque.core.study"], check=True)
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -127,11 +127,12 @@ class Prediction:
         shift
             Difference of that joint's position, velocity and acceleration, one column each.
         """
-        change = np.empty_like(state.position, dtype=float, order="F")
+        change = np.empty(state.position.shape[::-1])
         moved = (shift.position, shift.velocity, shift.acceleration)
         one, two, three = (np.ascontiguousarray(series[:, 0]) for series in moved)
-        add_products(self.slopes(state, joint), (one, two, three), change)
-        return change
+        by_position, by_velocity, by_acceleration = (table.T for table in self.slopes(state, joint))
+        add_products((by_position, by_velocity, by_acceleration), (one, two, three), change)
+        return change.T
 
     def slopes(self, state: MotionState, joint: int) -> Slopes:
         """Give the load's derivatives by position, velocity and acceleration of a joint, counted from 0.

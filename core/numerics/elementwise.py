@@ -8,16 +8,16 @@ from numba import njit, types
 
 _EXACT = {"nogil": True, "cache": True, "no_cfunc_wrapper": True, "error_model": "numpy"}
 _SERIES = types.Array(types.float64, 1, "C", readonly=True)
-_JOINTS = types.Array(types.float64, 2, "F", readonly=True)
-_OUT = types.Array(types.float64, 2, "F")
+_TABLE = types.Array(types.float64, 2, "C", readonly=True)
+_OUT = types.Array(types.float64, 2, "C")
 
 
-@njit(types.void(types.UniTuple(_JOINTS, 3), types.UniTuple(_SERIES, 3), _OUT), **_EXACT)
+@njit(types.void(types.UniTuple(_TABLE, 3), types.UniTuple(_SERIES, 3), _OUT), **_EXACT)
 def add_products(tables, series, out) -> None:  # pragma: no cover  (compiled)
-    """Write the sum of three tables, samples x joints, times a series each."""
+    """Write the sum of three tables, joints x samples, times a series each."""
     (first, second, third), (one, two, three) = tables, series
-    for joint in range(out.shape[1]):
-        for sample in range(out.shape[0]):
-            total = first[sample, joint] * one[sample]
-            total += second[sample, joint] * two[sample]
-            out[sample, joint] = total + third[sample, joint] * three[sample]
+    for joint in range(out.shape[0]):
+        for sample in range(out.shape[1]):
+            total = first[joint, sample] * one[sample]
+            total += second[joint, sample] * two[sample]
+            out[joint, sample] = total + third[joint, sample] * three[sample]

@@ -19,9 +19,9 @@ def believed_chain(seed: int) -> tuple[Prediction, np.ndarray]:
     return Prediction(standard_model(robot, ("rigid_body",)), bodies.ravel()), bodies
 
 
-def motion_of(seed: int, samples: int = 6) -> MotionState:
+def motion_of(seed: int, samples: int = 6, joints: int = JOINTS) -> MotionState:
     """Draw states of the chain."""
-    motion = random_motion(np.random.default_rng(seed), JOINTS, samples)
+    motion = random_motion(np.random.default_rng(seed), joints, samples)
     return MotionState(motion.position, motion.velocity, motion.acceleration)
 
 
