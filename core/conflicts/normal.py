@@ -1,7 +1,7 @@
 """Hold a set-up's normal equations joint by joint: what least squares can do follows from products alone."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -64,10 +64,17 @@ class Normal:
         """Give the RMS residual over the RMS torque per joint."""
         return np.asarray(np.sqrt(self._left(base) / np.where(self.squares > 0.0, self.squares, 1.0)))
 
-    def likeliest_factor(self, joint: int) -> float | None:
+    def with_factor(self, joint: int, factor: float) -> "Normal":
+        """Multiply the torque of a joint (from 0)."""
+        factors = np.ones(len(self.squares))
+        factors[joint] = factor
+        return replace(self, moments=factors[:, None] * self.moments, squares=factors**2 * self.squares)
+
+    def linear_factor(self, joint: int) -> float | None:
         """Give the factor of a joint's (from 0) torque at which least squares leaves least of all equations.
 
-        The parameters that other joints share decide it. None where there are none, or it is not positive.
+        The parameters that other joints share decide it, and the noise of the torque makes it too small. None
+        where there are none, or it is not positive.
         """
         weights = 1.0 / self.noise**2
         product, moment = self._weighted(self.noise)

@@ -49,13 +49,10 @@ def _best(steps: Steps, trials: Trials, most: int) -> Iterator[Path]:
 
 
 def _alternatives(steps: Steps, paths: list[Path], trials: Trials) -> Iterator[Path]:
-    """Go on from the next best as long as all paths leave a joint in doubt: one error may mask another."""
-    poor = all(_is_poor(path[-1].after) for path in paths)
-    for step in steps.alternatives if poor else ():
-        path = _from(step, trials, TRIAL.most_corrections)
-        yield path
-        if not _is_poor(path[-1].after):
-            return
+    """Go on from the next best where all paths leave a joint in doubt, or take several corrections."""
+    unsure = all(len(path) > 1 or _is_poor(path[-1].after) for path in paths)
+    for step in steps.alternatives(trials) if unsure and paths else ():
+        yield _from(step, trials, TRIAL.most_corrections)
 
 
 def _from(step: FoundConflict, trials: Trials, most: int) -> Path:

@@ -4,6 +4,7 @@ Every hypothesis is one set-up. Least squares bounds how well it can fit. Those 
 the best are fitted with the constraints, best bound first, and judged on rows that were not fitted.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from .conflict import Hypothesis
@@ -20,8 +21,33 @@ class Steps:
 
     best: Path
     """Those that predict best, first the most usual of those that predict alike."""
-    alternatives: Path
-    """The next best: one error may mask another, so that the right first step is not the best."""
+    _present: Outcome
+    _listed: "Sequence[_Bounded]"
+    _tried: "Sequence[_Tried]"
+    _needed: float
+
+    def alternatives(self, trials: Trials) -> Path:
+        """Give the next best, one of each kind: one error may mask another.
+
+        The right first step is then not the best, and need not have been fitted for the best to be found.
+        """
+        taken = {step.hypothesis.key for step in self.best}
+        others = [own for own in self._listed if own.hypothesis.key not in taken]
+        fitted = {own.hypothesis: own for own in self._tried}
+        found = {}
+        for kind in {own.hypothesis.conflict for own in others}:
+            alike = sorted((own for own in others if own.hypothesis.conflict == kind), key=_bound)
+            tried = [
+                fitted.get(own.hypothesis) or _try(own, trials, self._needed)
+                for own in alike[: TRIAL.of_kind]
+            ]
+            useful = [
+                own for own in tried if own is not None and own.score <= self._present.score - self._needed
+            ]
+            if useful:
+                found[kind] = min(useful, key=_score)
+        ranked = sorted(found.values(), key=_score)[: TRIAL.alternatives]
+        return tuple(own.step(self._present, self.best[0].confidence, []) for own in ranked)
 
 
 def first_steps(setup: Setup, present: Outcome, trials: Trials) -> Steps:
@@ -29,17 +55,17 @@ def first_steps(setup: Setup, present: Outcome, trials: Trials) -> Steps:
     listed = _bounded(setup, trials)
     margins = Margins.of(present, trials)
     needed = margins.needed(len(listed))
-    tried = [own for own in _tried(listed, present, trials, needed) if own.score <= present.score - needed]
+    all_tried = _tried(listed, present, trials, needed)
+    tried = [own for own in all_tried if own.score <= present.score - needed]
     best = min((own.score for own in tried), default=present.score)
     limit = best + margins.undecided
     near = sorted(
         (own for own in tried if own.score < limit), key=lambda own: own.score > best + margins.equal
     )
-    far = sorted((own for own in tried if own.score >= limit), key=lambda own: own.score)
-    worse = [*(own.score for own in far), *[present.score] * len(listed)]
+    worse = [*(own.score for own in tried if own.score >= limit), *[present.score] * len(listed)]
     confidence = 1.0 / (1.0 + sum(margins.likelihood(score - best) for score in worse))
-    steps = [own.step(present, confidence, near) for own in (*near, *far[: TRIAL.alternatives])]
-    return Steps(tuple(steps[: len(near)]), tuple(steps[len(near) :]))
+    steps = tuple(own.step(present, confidence, near) for own in near)
+    return Steps(steps, present, listed, all_tried, needed)
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,9 +106,23 @@ def _tried(listed: list[_Bounded], present: Outcome, trials: Trials, needed: flo
     for place, candidate in sorted(enumerate(listed), key=lambda pair: pair[1].bound):
         if candidate.bound > best + DECISION.least_gain:
             break
-        outcome = trials.outcome(candidate.equations)
-        if outcome is not None:
-            score = outcome.score - needed * candidate.hypothesis.expected
-            tried.append((place, _Tried(candidate.hypothesis, outcome, score)))
-            best = min(best, outcome.fitted)
+        found = _try(candidate, trials, needed)
+        if found is not None:
+            tried.append((place, found))
+            best = min(best, found.outcome.fitted)
     return [candidate for _, candidate in sorted(tried, key=lambda pair: pair[0])]
+
+
+def _try(candidate: _Bounded, trials: Trials, needed: float) -> _Tried | None:
+    outcome = trials.outcome(candidate.equations)
+    if outcome is None:
+        return None
+    return _Tried(candidate.hypothesis, outcome, outcome.score - needed * candidate.hypothesis.expected)
+
+
+def _bound(candidate: _Bounded) -> float:
+    return candidate.bound
+
+
+def _score(candidate: _Tried) -> float:
+    return candidate.score

@@ -28,7 +28,9 @@ class Trial:
     most_corrections: int = 3
     """Conflicts in one set-up."""
     alternatives: int = 3
-    """Next best first corrections that are followed where the best leave a joint in doubt."""
+    """Next best first corrections followed where the best leave a joint in doubt, or lead to more."""
+    of_kind: int = 4
+    """Hypotheses of one kind that are fitted for this, of those that least squares bounds best."""
 
 
 @dataclass(frozen=True)
@@ -94,10 +96,12 @@ class Length:
 class Ratio:
     """Search the factor of a torque. All are set by hand."""
 
+    coarse: tuple[float, ...] = tuple(2.0**power for power in range(-8, 9) if power)
+    """Factors that are tried first, beside a linear estimate; gears of robots reduce by some 20 to 160."""
     promising: float = 0.05
-    """Natural logarithm by which the mean error has to fall at the first estimate for it to be refined."""
-    around: float = np.log(30.0)
-    """Logarithm of the factor on either side of the first estimate within which it is refined."""
+    """Natural logarithm by which the mean error has to fall at one of them for it to be refined."""
+    around: float = np.log(5.0)
+    """Logarithm of the factor on either side of the first within which it is refined."""
     tolerance: float = 5e-3
     """Logarithm to which a factor is refined."""
     least: float = np.log(2.0)

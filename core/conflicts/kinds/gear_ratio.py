@@ -6,6 +6,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from ..conflict import Conflict, Hypothesis
+from ..normal import Normal
 from ..setup import Setup
 from ..thresholds import RATIO
 from ..trial import Trials
@@ -19,11 +20,14 @@ class GearRatio(Conflict):
 
     def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
         """Give the likeliest factor of every torque, where it is more than a gain's error."""
+        normal = trials.equations(setup).normal
         for joint in range(setup.joints):
-            first = _promising(setup, trials, joint)
-            if first is None:
+            linear = normal.linear_factor(joint)
+            firsts = (*RATIO.coarse, *(() if linear is None else (linear,)))
+            bounds = [normal.with_factor(joint, factor).bound for factor in firsts]
+            if normal.bound - min(bounds) < RATIO.promising:
                 continue
-            factor = first * likeliest_factor(with_factor(setup, joint, first), trials, joint)
+            factor = _likeliest(normal, joint, firsts[int(np.argmin(bounds))])
             if abs(np.log(factor)) >= RATIO.least:
                 yield factor_hypothesis(setup, joint, factor)
 
@@ -44,11 +48,16 @@ def factor_hypothesis(setup: Setup, joint: int, factor: float) -> Hypothesis:
 
 def likeliest_factor(setup: Setup, trials: Trials, joint: int) -> float:
     """Minimise what least squares leaves over a factor on the torque of a joint (from 0)."""
+    return _likeliest(trials.equations(setup).normal, joint, 1.0)
+
+
+def _likeliest(normal: Normal, joint: int, first: float) -> float:
+    """Refine a factor from a first one."""
 
     def bound(logarithm: float) -> float:
-        return _bound(with_factor(setup, joint, float(np.exp(logarithm))), trials)
+        return normal.with_factor(joint, float(np.exp(logarithm))).bound
 
-    around = -RATIO.around, RATIO.around
+    around = np.log(first) + np.array([-RATIO.around, RATIO.around])
     found = minimize_scalar(bound, bounds=around, method="bounded", options={"xatol": RATIO.tolerance})
     return float(np.exp(found.x))
 
@@ -56,16 +65,3 @@ def likeliest_factor(setup: Setup, trials: Trials, joint: int) -> float:
 def with_factor(setup: Setup, joint: int, factor: float) -> Setup:
     """Multiply the torque of a joint (from 0)."""
     return setup.with_torque(setup.assignment.torque.scaled(factor, joint))
-
-
-def _promising(setup: Setup, trials: Trials, joint: int) -> float | None:
-    """Give the first estimate, which is linear: the noise of the torque makes it too small."""
-    first = trials.equations(setup).normal.likeliest_factor(joint)
-    if first is None:
-        return None
-    fall = _bound(setup, trials) - _bound(with_factor(setup, joint, first), trials)
-    return first if fall >= RATIO.promising else None
-
-
-def _bound(setup: Setup, trials: Trials) -> float:
-    return trials.equations(setup).normal.bound
