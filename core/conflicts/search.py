@@ -41,11 +41,20 @@ def _path(setup: Setup, present: Outcome, trials: Trials, most: int) -> Path:
 
 def _best(steps: Steps, trials: Trials, most: int) -> Iterator[Path]:
     """Go on from each of the best; only from the first where that is all."""
-    for step in steps.best:
+    for step in _apart(steps.best):
         path = _from(step, trials, most)
         yield path
         if step is steps.best[0] and len(path) == 1 and not _is_poor(step.after):
             return
+
+
+def _apart(steps: Path) -> Path:
+    """Give one step of those about one channel: two sizes, a unit and nearly its factor, lead on alike."""
+    about: dict[tuple[object, ...], FoundConflict] = {}
+    for step in steps:
+        kind, joints, channel = step.hypothesis.key
+        about.setdefault((joints, channel) if joints else (kind,), step)
+    return tuple(about.values())
 
 
 def _alternatives(steps: Steps, paths: list[Path], trials: Trials) -> Iterator[Path]:

@@ -32,22 +32,20 @@ class Steps:
         The right first step is then not the best, and need not have been fitted for the best to be found.
         """
         taken = {step.hypothesis.key for step in self.best}
-        others = [own for own in self._listed if own.hypothesis.key not in taken]
-        fitted = {own.hypothesis: own for own in self._tried}
-        found = {}
-        for kind in {own.hypothesis.conflict for own in others}:
-            alike = sorted((own for own in others if own.hypothesis.conflict == kind), key=_bound)
-            tried = [
-                fitted.get(own.hypothesis) or _try(own, trials, self._needed)
-                for own in alike[: TRIAL.of_kind]
-            ]
-            useful = [
-                own for own in tried if own is not None and own.score <= self._present.score - self._needed
-            ]
-            if useful:
-                found[kind] = min(useful, key=_score)
-        ranked = sorted(found.values(), key=_score)[: TRIAL.alternatives]
+        kinds: dict[str, list[_Bounded]] = {}
+        for own in sorted(self._listed, key=_bound):
+            if own.hypothesis.key not in taken and _can_gain(own, self._present):
+                kinds.setdefault(own.hypothesis.conflict, []).append(own)
+        best = (self._best_of(alike[: TRIAL.of_kind], trials) for alike in kinds.values())
+        ranked = sorted((own for own in best if own is not None), key=_score)[: TRIAL.alternatives]
         return tuple(own.step(self._present, self.best[0].confidence, []) for own in ranked)
+
+    def _best_of(self, some: "Sequence[_Bounded]", trials: Trials) -> "_Tried | None":
+        """Give the best of some hypotheses that predicts better than the set-up by more than chance."""
+        fitted = {own.hypothesis: own for own in self._tried}
+        tried = [fitted.get(own.hypothesis) or _try(own, trials, self._needed) for own in some]
+        useful = [own for own in tried if own and own.score <= self._present.score - self._needed]
+        return min(useful, key=_score, default=None)
 
 
 def first_steps(setup: Setup, present: Outcome, trials: Trials) -> Steps:
@@ -106,11 +104,18 @@ def _tried(listed: list[_Bounded], present: Outcome, trials: Trials, needed: flo
     for place, candidate in sorted(enumerate(listed), key=lambda pair: pair[1].bound):
         if candidate.bound > best + DECISION.least_gain:
             break
+        if not (candidate.hypothesis.expected or _can_gain(candidate, present)):
+            continue
         found = _try(candidate, trials, needed)
         if found is not None:
             tried.append((place, found))
             best = min(best, found.outcome.fitted)
     return [candidate for _, candidate in sorted(tried, key=lambda pair: pair[0])]
+
+
+def _can_gain(candidate: _Bounded, present: Outcome) -> bool:
+    """Tell whether the bound of a hypothesis leaves room for what one has to gain."""
+    return candidate.bound < present.fitted - DECISION.least_gain
 
 
 def _try(candidate: _Bounded, trials: Trials, needed: float) -> _Tried | None:

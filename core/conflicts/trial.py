@@ -96,6 +96,7 @@ class Trials:
     _bases: dict[int, tuple[tuple[Link, ...], BaseModel]] = field(default_factory=dict)
     _regressors: dict[tuple[object, ...], Regressor] = field(default_factory=dict)
     _plans: dict[tuple[object, ...], ColumnPlan] = field(default_factory=dict)
+    _links: dict[tuple[object, ...], tuple[Link, ...]] = field(default_factory=dict)
 
     def equations(self, setup: Setup) -> Equations:
         """Write down the equations of a set-up."""
@@ -106,6 +107,16 @@ class Trials:
             for chosen in _chosen(samples)
         )
         return Equations(regressor, fitted, judged)
+
+    def links(
+        self, setup: Setup, change: tuple[object, ...], changed: Callable[[], tuple[Link, ...]]
+    ) -> tuple[Link, ...]:
+        """Give the links of a set-up after a change, the same ones again: what is known of them is kept."""
+        self._base(setup.robot)
+        key = id(setup.robot.links), *change
+        if key not in self._links:
+            self._links[key] = changed()
+        return self._links[key]
 
     def outcome(self, equations: Equations) -> Outcome | None:
         """Fit a set-up with its constraints; None where no accurate optimum is found."""

@@ -35,7 +35,7 @@ class LinkLength(Conflict):
                     self.name,
                     (link.joint,),
                     None,
-                    _changed(setup, place, entry, change),
+                    _changed(setup, trials, place, entry, change),
                     f"the length {entry} of joint {link.joint} is {after:.3g} m, not {before:.3g} m",
                     f"describe joint {link.joint} with {entry} = {after:.4g} m",
                 )
@@ -52,7 +52,7 @@ def _likeliest(setup: Setup, trials: Trials, place: int, entry: EntryName) -> fl
     """Minimise what least squares leaves over the error of a length, coarsely and then finely."""
 
     def bound(change: float) -> float:
-        return trials.equations(_changed(setup, place, entry, change)).normal.bound
+        return trials.equations(_changed(setup, trials, place, entry, change)).normal.bound
 
     scores = [bound(change) for change in LENGTH.coarse]
     best = int(np.argmin(scores))
@@ -64,11 +64,14 @@ def _likeliest(setup: Setup, trials: Trials, place: int, entry: EntryName) -> fl
     return float(found.x)
 
 
-def _changed(setup: Setup, place: int, entry: EntryName, change: float) -> Setup:
+def _changed(setup: Setup, trials: Trials, place: int, entry: EntryName, change: float) -> Setup:
     if change == 0.0:
         return setup
-    joint = setup.robot.links[place].joint
-    return setup.with_links(with_entry(setup.robot, joint, entry, change).links)
+
+    def changed() -> tuple[Link, ...]:
+        return with_entry(setup.robot, setup.robot.links[place].joint, entry, change).links
+
+    return setup.with_links(trials.links(setup, (place, entry, change), changed))
 
 
 def _length(link: Link, entry: EntryName) -> float:
