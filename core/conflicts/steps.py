@@ -4,8 +4,10 @@ Every hypothesis is one set-up. Least squares bounds how well it can fit. Those 
 the best are fitted with the constraints, best bound first, and judged on rows that were not fitted.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from .conflict import Hypothesis
 from .path import FoundConflict, Margins, Path
@@ -32,20 +34,18 @@ class Steps:
         The right first step is then not the best, and need not have been fitted for the best to be found.
         """
         taken = {step.hypothesis.key for step in self.best}
-        kinds: dict[str, list[_Bounded]] = {}
-        for own in sorted(self._listed, key=_bound):
-            if own.hypothesis.key not in taken and _can_gain(own, self._present):
-                kinds.setdefault(own.hypothesis.conflict, []).append(own)
-        best = (self._best_of(alike[: TRIAL.of_kind], trials) for alike in kinds.values())
+        others = [own for own in self._listed if own.hypothesis.key not in taken]
+        best = [self._best_of(kind, others, trials) for kind in CONFLICTS]
         ranked = sorted((own for own in best if own is not None), key=_score)[: TRIAL.alternatives]
         return tuple(own.step(self._present, self.best[0].confidence, []) for own in ranked)
 
-    def _best_of(self, some: "Sequence[_Bounded]", trials: Trials) -> "_Tried | None":
-        """Give the best of some hypotheses that predicts better than the set-up by more than chance."""
+    def _best_of(self, kind: str, others: "Sequence[_Bounded]", trials: Trials) -> "_Tried | None":
+        """Give the hypothesis of one kind that predicts best, if better than the set-up."""
         fitted = {own.hypothesis: own for own in self._tried}
-        tried = [fitted.get(own.hypothesis) or _try(own, trials, self._needed) for own in some]
-        useful = [own for own in tried if own and own.score <= self._present.score - self._needed]
-        return min(useful, key=_score, default=None)
+        some = [own for own in others if own.hypothesis.conflict == kind and _can_gain(own, self._present)]
+        likeliest = sorted(some, key=_bound)[: TRIAL.of_kind]
+        tried = [fitted.get(own.hypothesis) or _try(own, trials, self._needed) for own in likeliest]
+        return min(_better(filter(None, tried), self._present, self._needed), key=_score, default=None)
 
 
 def first_steps(setup: Setup, present: Outcome, trials: Trials) -> Steps:
@@ -53,17 +53,15 @@ def first_steps(setup: Setup, present: Outcome, trials: Trials) -> Steps:
     listed = _bounded(setup, trials)
     margins = Margins.of(present, trials)
     needed = margins.needed(len(listed))
-    all_tried = _tried(listed, present, trials, needed)
-    tried = [own for own in all_tried if own.score <= present.score - needed]
-    best = min((own.score for own in tried), default=present.score)
-    limit = best + margins.undecided
-    near = sorted(
-        (own for own in tried if own.score < limit), key=lambda own: own.score > best + margins.equal
-    )
-    worse = [*(own.score for own in tried if own.score >= limit), *[present.score] * len(listed)]
+    tried = _tried(listed, present, trials, needed)
+    better = _better(tried, present, needed)
+    best = min(map(_score, better), default=present.score)
+    near = [own for own in better if own.score < best + margins.undecided]
+    near.sort(key=lambda own: own.score > best + margins.equal)
+    worse = [*(own.score for own in better if own not in near), *[present.score] * len(listed)]
     confidence = 1.0 / (1.0 + sum(margins.likelihood(score - best) for score in worse))
     steps = tuple(own.step(present, confidence, near) for own in near)
-    return Steps(steps, present, listed, all_tried, needed)
+    return Steps(steps, present, listed, tried, needed)
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,8 +112,12 @@ def _tried(listed: list[_Bounded], present: Outcome, trials: Trials, needed: flo
 
 
 def _can_gain(candidate: _Bounded, present: Outcome) -> bool:
-    """Tell whether the bound of a hypothesis leaves room for what one has to gain."""
-    return candidate.bound < present.fitted - DECISION.least_gain
+    """Tell whether a hypothesis changes what least squares can do, or the constraints cost so much.
+
+    Otherwise it is the same robot said otherwise, and no fit tells it from the set-up as it is.
+    """
+    changes = candidate.bound < present.bound and not np.isclose(candidate.bound, present.bound)
+    return bool(changes or candidate.bound < present.fitted - DECISION.least_gain)
 
 
 def _try(candidate: _Bounded, trials: Trials, needed: float) -> _Tried | None:
@@ -123,6 +125,11 @@ def _try(candidate: _Bounded, trials: Trials, needed: float) -> _Tried | None:
     if outcome is None:
         return None
     return _Tried(candidate.hypothesis, outcome, outcome.score - needed * candidate.hypothesis.expected)
+
+
+def _better(tried: Iterable[_Tried], present: Outcome, needed: float) -> list[_Tried]:
+    """Give those that predict better than a set-up by more than chance."""
+    return [own for own in tried if own.score <= present.score - needed]
 
 
 def _bound(candidate: _Bounded) -> float:

@@ -80,6 +80,8 @@ class Outcome:
     """RMS residual over RMS torque per joint, on the rows that judge."""
     fitted: float
     """Mean logarithm of the same on the rows that were fitted."""
+    bound: float
+    """What it would be there without constraints."""
 
     @property
     def score(self) -> float:
@@ -127,7 +129,7 @@ class Trials:
         except SolverError:
             return None
         values = base.base_of(solution.standard)
-        return Outcome(equations.judged_errors(values), mean_log(normal.errors(values)))
+        return Outcome(equations.judged_errors(values), mean_log(normal.errors(values)), normal.bound)
 
     def bound_of_gravity(self, setup: Setup) -> Callable[[Vector3], float]:
         """Give the bound as a function of gravity in the base frame, m/s2, in which torque is linear.
