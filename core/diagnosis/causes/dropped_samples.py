@@ -14,7 +14,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.stats import poisson
 
-from ...arrays import JointSeries, JointVector
+from ...arrays import JointSeries, JointVector, SampleMask, Samples
 from ...dynamics.prediction import Prediction
 from ...log.model import LogRows
 from ...signals.condition import Motion
@@ -100,14 +100,31 @@ def _count(rows: LogRows, motion: Motion) -> _Count:
     seconds = reach / motion.log.rate_hz
     moving = np.any(np.abs(travel) > motion.recipe.still_speed * seconds, axis=1)
     lost &= moving
+    channels = (rows.position, rows.current if rows.torque is None else rows.torque)
+    columns = [column for channel in channels if channel is not None for column in channel.T]
+    return _Count(int(moving.sum()), int(lost.sum()), _expected(columns, moving, lost))
+
+
+def _expected(columns: list[Samples], moving: SampleMask, lost: SampleMask) -> float:
+    """Give how many rows repeat by chance while the robot moves, from how often each channel does nearby.
+
+    Coarse channels repeat together where all joints are slow.
+    """
     fresh = moving & ~lost
-    chances = [
-        (np.sum((column[1:] == column[:-1]) & fresh[1:]) + 0.5) / (np.sum(fresh) + 1.0)
-        for channel in (rows.position, rows.current if rows.torque is None else rows.torque)
-        if channel is not None
-        for column in channel.T
-    ]
-    return _Count(int(moving.sum()), int(lost.sum()), float(moving.sum() * np.prod(chances)))
+    known = 1.0 + _nearby(fresh)
+    chances = np.ones(len(moving))
+    for column in columns:
+        same = np.append(False, column[1:] == column[:-1]) & fresh
+        chances *= (_nearby(same) + 0.5) / known
+    return float(chances[moving].sum())
+
+
+def _nearby(marks: SampleMask) -> Samples:
+    """Count marks among so many rows about each row."""
+    counts = np.append(0, np.cumsum(marks))
+    rows, reach = np.arange(len(marks)), SAMPLE_CHECKS.dropped_nearby // 2
+    count = counts[np.minimum(rows + reach + 1, len(marks))] - counts[np.maximum(rows - reach, 0)]
+    return np.asarray(count, dtype=float)
 
 
 def percent_more(share: float) -> str:

@@ -88,6 +88,8 @@ class SampleChecks:
     """Order of the low-pass filters of the checks."""
     dropped_reach: int = 5
     """Rows over which it is judged whether the robot moved."""
+    dropped_nearby: int = 200
+    """Rows from which the chance is taken that a channel repeats."""
     dropped_drawn: float = 0.02
     """Share of rows that are drawn at least to measure what repeats add."""
     jitter_band: float = 0.25
