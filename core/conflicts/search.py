@@ -9,6 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from .kinds.gear_ratio import GearRatio
+from .kinds.unit import Unit
 from .path import FoundConflict, Margins, Path, cost
 from .refinement import refined
 from .setup import Setup
@@ -49,12 +51,13 @@ def _best(steps: Steps, trials: Trials, most: int) -> Iterator[Path]:
 
 
 def _apart(steps: Path) -> Path:
-    """Give one step of those about one channel: two sizes, a unit and nearly its factor, lead on alike."""
-    about: dict[tuple[object, ...], FoundConflict] = {}
-    for step in steps:
-        kind, joints, channel = step.hypothesis.key
-        about.setdefault((joints, channel) if joints else (kind,), step)
-    return tuple(about.values())
+    """Leave out factors of channels that a unit corrects as well: both lead on alike, but it is exact."""
+    units = {step.hypothesis.key[1:] for step in steps if step.hypothesis.conflict == Unit.name}
+    return tuple(
+        step
+        for step in steps
+        if step.hypothesis.conflict != GearRatio.name or step.hypothesis.key[1:] not in units
+    )
 
 
 def _alternatives(steps: Steps, paths: list[Path], trials: Trials) -> Iterator[Path]:
