@@ -7,7 +7,7 @@ import numpy as np
 
 from ...dynamics.term import Term
 from ...dynamics.terms.joint_elasticity import Elasticity
-from ..thresholds.causes import LINEARISATION
+from ..thresholds.causes import ADMISSIBLE, LINEARISATION
 from ..thresholds.dataset import BAND
 from .protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting
 from .shared.own_joint import OwnJointCause, geometric_grid, motor_inertias, rotor_text
@@ -48,8 +48,9 @@ class JointElasticity(OwnJointCause):
         )
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Admit a positive compliance."""
-        return super().admissible(solved) and bool(solved.values[0] > 0.0)
+        """Admit a positive compliance, with a resonance: without its peak a spring would be a mere lag."""
+        resonates = solved.scalars["damping_ratio"] < ADMISSIBLE.damping_ratio
+        return super().admissible(solved) and resonates and bool(solved.values[0] > 0.0)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report stiffness (with the compliance's relative deviation), damping and, if any, rotor inertia."""

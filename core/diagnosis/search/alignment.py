@@ -34,7 +34,10 @@ Lost = Callable[[float], float]
 
 
 def restart_from_alignment(found: SearchState, later: Later) -> SearchState:
-    """Give the better of a search and its restart from the exact delay, which members may stand for."""
+    """Give the better of a search and its restart from the exact delay, which members may stand for.
+
+    A restart that ends without the delay says that they do not.
+    """
     if all(member.cause.id == TimeDelay.id for member in found.chosen.members):
         return found
     kept = _without_stand_ins(found.chosen.members)
@@ -56,7 +59,8 @@ def restart_from_alignment(found: SearchState, later: Later) -> SearchState:
     if start is None:
         return found
     other = continue_search(start, known=found.through)
-    return other if bic(other.chosen) > bic(found.chosen) + SELECTION.undecided else found
+    delayed = any(member.cause.id == TimeDelay.id for member in other.chosen.members)
+    return other if delayed and bic(other.chosen) > bic(found.chosen) + SELECTION.undecided else found
 
 
 def _without_stand_ins(members: Sequence[Candidate]) -> tuple[Candidate, ...]:

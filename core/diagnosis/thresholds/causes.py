@@ -47,6 +47,9 @@ class Admissible:
     inertia or friction of a coupled motor, a change that is stated among others, a rotor's inertia."""
     coupling_distance: int = 2
     """Joints between which a transmission couples: the next or the one after it."""
+    damping_ratio: float = 0.5**0.5
+    """Damping ratio of an elastic joint. Source: from there on the response of a spring and its mass has no
+    peak at a resonance, and is a lag's."""
     backlash_narrower: float = 8.0
     """Factor by which backlash may be narrower than the width that its crossings were computed for."""
     backlash_wider: float = 5.0
