@@ -56,7 +56,8 @@ settings.load_profile("veritorque")
 def pytest_configure(config: pytest.Config) -> None:
     """Compile the kernels once, before several processes that each would compile all of them are started."""
     if getattr(config.option, "numprocesses", None):
-        subprocess.run([sys.executable, "-c", "import veritorque.core.study"], check=True)
+        root = Path(__file__).parent
+        subprocess.run([sys.executable, "-c", "import veritorque.core.study"], cwd=root, check=True)
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -18,14 +18,35 @@ from .trial import Equations, Outcome, Trials
 
 
 @dataclass(frozen=True, eq=False)
+class _Bounded:
+    hypothesis: Hypothesis
+    equations: Equations
+    bound: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Tried:
+    hypothesis: Hypothesis
+    outcome: Outcome
+    score: float
+    """Mean logarithm of the errors, less what an expected correction need not gain."""
+
+    def step(self, before: Outcome, confidence: float, near: "list[_Tried]") -> FoundConflict:
+        """Give the conflict, with those of the near ones that are of another kind or joint."""
+        others = (other.hypothesis for other in near)
+        equivalents = tuple(other for other in others if other.key != self.hypothesis.key)
+        return FoundConflict(self.hypothesis, before, self.outcome, confidence, equivalents)
+
+
+@dataclass(frozen=True, eq=False)
 class Steps:
     """Hold first steps."""
 
     best: Path
     """Those that predict best, first the most usual of those that predict alike."""
     _present: Outcome
-    _listed: "Sequence[_Bounded]"
-    _tried: "Sequence[_Tried]"
+    _listed: Sequence[_Bounded]
+    _tried: Sequence[_Tried]
     _needed: float
 
     def alternatives(self, trials: Trials) -> Path:
@@ -39,7 +60,7 @@ class Steps:
         ranked = sorted((own for own in best if own is not None), key=_score)[: TRIAL.alternatives]
         return tuple(own.step(self._present, self.best[0].confidence, []) for own in ranked)
 
-    def _best_of(self, kind: str, others: "Sequence[_Bounded]", trials: Trials) -> "_Tried | None":
+    def _best_of(self, kind: str, others: Sequence[_Bounded], trials: Trials) -> _Tried | None:
         """Give the hypothesis of one kind that predicts best, if better than the set-up."""
         fitted = {own.hypothesis: own for own in self._tried}
         some = [own for own in others if own.hypothesis.conflict == kind and _can_gain(own, self._present)]
@@ -64,13 +85,6 @@ def first_steps(setup: Setup, present: Outcome, trials: Trials) -> Steps:
     return Steps(steps, present, listed, tried, needed)
 
 
-@dataclass(frozen=True, eq=False)
-class _Bounded:
-    hypothesis: Hypothesis
-    equations: Equations
-    bound: float
-
-
 def _bounded(setup: Setup, trials: Trials) -> list[_Bounded]:
     """List every hypothesis with its bound, in order of preference."""
     listed = []
@@ -79,20 +93,6 @@ def _bounded(setup: Setup, trials: Trials) -> list[_Bounded]:
             equations = trials.equations(hypothesis.setup)
             listed.append(_Bounded(hypothesis, equations, equations.normal.bound))
     return listed
-
-
-@dataclass(frozen=True, eq=False)
-class _Tried:
-    hypothesis: Hypothesis
-    outcome: Outcome
-    score: float
-    """Mean logarithm of the errors, less what an expected correction need not gain."""
-
-    def step(self, before: Outcome, confidence: float, near: "list[_Tried]") -> FoundConflict:
-        """Give the conflict, with those of the near ones that are of another kind or joint."""
-        others = (other.hypothesis for other in near)
-        equivalents = tuple(other for other in others if other.key != self.hypothesis.key)
-        return FoundConflict(self.hypothesis, before, self.outcome, confidence, equivalents)
 
 
 def _tried(listed: list[_Bounded], present: Outcome, trials: Trials, needed: float) -> list[_Tried]:

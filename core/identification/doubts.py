@@ -42,7 +42,7 @@ def contradictions(found: Identification) -> tuple[str, ...]:
 
 
 def has_impossible_joint(found: Identification) -> bool:
-    """Tell whether a joint's torque could be followed well enough by bodies that cannot exist only.
+    """Tell whether only physically inconsistent bodies could follow a joint's torque well enough.
 
     The constraint then costs most of it: robot and log disagree, and not in a small correction.
     """

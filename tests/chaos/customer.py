@@ -82,7 +82,7 @@ class Customer:
         headers = dict(headers or {}) | ({"Content-Type": media_type} if media_type else {})
         deadline = time.monotonic() + 300.0
         while True:
-            asked = urllib.request.Request(self._address + path, body, headers, method=method)  # noqa: S310 - ours
+            asked = urllib.request.Request(self._address + path, body, headers, method=method)  # noqa: S310 - our own
             try:
                 with urllib.request.urlopen(asked, timeout=30.0) as answer:  # noqa: S310 - our own address
                     return answer.read()

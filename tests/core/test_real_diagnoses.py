@@ -1,13 +1,13 @@
 """Hold the diagnosis to measured robots: causes that are known to be there, and what their cures gain.
 
-Errors are the RMS of the residual over the RMS of the torque, in percent per joint, on motion that no fit has
-seen, at the band of the fit. `make hidden` diagnoses a Rokae, too (see `tests.hidden.real`).
+Errors are the RMS of the residual over the RMS of the torque, in percent per joint, on held-out motion, at
+the band of the fit. `make hidden` diagnoses a Rokae, too (see `tests.hidden.real`).
 """
 
 import numpy as np
 import pytest
 
-from tests.hidden.real import diagnosed, judge_by_what_no_fit_has_seen, percents
+from tests.hidden.real import diagnosed, judge_on_held_out_motion, percents
 from tests.measured import FRANKA_ROWS, TX40_TEST, TX40_TRAIN, measured_log, measured_robot
 from veritorque.core.extension.result import Extension
 
@@ -48,8 +48,8 @@ def test_what_a_ur10e_that_stops_at_points_leaves_on_its_wrist_is_stiction():
     assert np.all(np.array([one.share for one in found.diagnosis.predictable])[4:] < 0.2)
 
 
-def test_what_is_found_on_a_panda_is_real_on_the_half_of_its_run_that_no_fit_has_seen():
+def test_what_is_found_on_a_panda_is_real_on_the_held_out_half_of_its_run():
     half = FRANKA_ROWS // 2
     halves = (measured_log("franka_panda", "traj1", *rows) for rows in ((0, half), (half, FRANKA_ROWS)))
     found = diagnosed(measured_robot("franka_panda"), *halves, logs=[2])
-    judge_by_what_no_fit_has_seen(found)
+    judge_on_held_out_motion(found)

@@ -59,7 +59,7 @@ def _masses(document: dict[str, object]) -> np.ndarray:
 # ----------------------------------------------------------------------------------------------------- UR10e
 
 UR10E_FIT = (("fourier_30s_12h", 635, 3510), ("fourier_20s_8h", 320, 2310))
-UR10E_UNSEEN = {
+UR10E_HELD_OUT = {
     "fourier_40s_12h": (500, 4460, "6.8 3.7 4.3 6.5 9.4 7.9"),
     "fourier_50s_12h": (355, 5090, "7.3 3.7 4.2 6.8 11.1 6.6"),
 }
@@ -67,14 +67,14 @@ UR10E_UNSEEN = {
 
 @cache
 def _ur10e(run: str) -> dict[str, object]:
-    start, stop, _ = UR10E_UNSEEN[run]
+    start, stop, _ = UR10E_HELD_OUT[run]
     fitted = [measured_log("ur10e_open", *one) for one in UR10E_FIT]
     return _document("ur10e_open", *fitted, measured_log("ur10e_open", run, start, stop), held_out=3)
 
 
-@pytest.mark.parametrize("run", UR10E_UNSEEN)
+@pytest.mark.parametrize("run", UR10E_HELD_OUT)
 def test_ur10e_predicts_runs_it_has_not_seen_as_well_as_a_plain_fit_or_better(run):
-    start, stop, floor = UR10E_UNSEEN[run]
+    start, stop, floor = UR10E_HELD_OUT[run]
     fitted = [measured_log("ur10e_open", *one) for one in UR10E_FIT]
     validation = measured_log("ur10e_open", run, start, stop)
     _assert_at_most(_percents_of_all_rows("ur10e_open", *fitted, validation, held_out=3), floor)

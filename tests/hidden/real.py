@@ -1,4 +1,4 @@
-"""Diagnose measured robots, and hold what is found to motion that no fit has seen.
+"""Diagnose measured robots, and verify what is found on held-out motion.
 
 Errors are the RMS of the residual over the RMS of the torque, in percent per joint, on held-out rows, at the
 band of the fit. Gains count all rows: much of what is found acts beside reversals, which headline errors
@@ -36,7 +36,7 @@ def percents_of_all_rows(found: Identification) -> np.ndarray:
     return 100.0 * np.sqrt(left)
 
 
-def judge_by_what_no_fit_has_seen(found: Extension) -> None:
+def judge_on_held_out_motion(found: Extension) -> None:
     """Hold confident causes to a gain on held-out rows, of their own or identified, and their cure to one."""
     searched = [one for one in found.diagnosis.findings if one.gain is not None]
     confident = [one for one in searched if one.confidence > SIZE.doubtful]
@@ -48,7 +48,7 @@ def judge_by_what_no_fit_has_seen(found: Extension) -> None:
 def judge_rokae() -> None:
     """Hold blocks in between to what `make test` asks of the held-out half of a Panda's run."""
     found = diagnosed(measured_robot("rokae_xmate3"), measured_log("rokae_xmate3", "excit"))
-    judge_by_what_no_fit_has_seen(found)
+    judge_on_held_out_motion(found)
     before, after = (percents(one.validation) for one in (found.before, found.after))
     assert after[6] < 0.8 * before[6], (before, after)
     assert after[2] < 0.9 * before[2], (before, after)

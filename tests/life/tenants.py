@@ -28,7 +28,7 @@ class Tenants:
         executor.release.set()
         settings = Settings(
             data_dir=directory,
-            host="0.0.0.0",  # noqa: S104 - keys
+            host="0.0.0.0",  # noqa: S104 - guarded by keys
             hosts=("testserver",),
             requests_per_second=1e9,
         )

@@ -58,7 +58,7 @@ class Alignment:
 
 @dataclass(frozen=True)
 class Holdout:
-    """Judge a cause by rows that no fit has used. All are set by hand unless a source is named."""
+    """Judge a cause by held-out rows. All are set by hand unless a source is named."""
 
     share: float = 0.25
     """Share of the expected likelihood ratio on held-out rows that has to be reached there."""

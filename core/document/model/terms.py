@@ -98,7 +98,7 @@ def _json_value(value: object, predictions: list[Prediction]) -> object:
     return value
 
 
-def _read(value: Any, annotation: object, predictions: Sequence[Prediction]) -> object:  # noqa: ANN401  (JSON)
+def _read(value: Any, annotation: object, predictions: Sequence[Prediction]) -> object:  # noqa: ANN401  (any JSON)
     if annotation is Prediction:
         return predictions[int(value)]
     if annotation is Coupling:
@@ -111,6 +111,6 @@ def _read(value: Any, annotation: object, predictions: Sequence[Prediction]) -> 
     return value
 
 
-def _numbers(value: Any, kind: type[int | float] = float) -> tuple[Any, ...]:  # noqa: ANN401  (JSON)
+def _numbers(value: Any, kind: type[int | float] = float) -> tuple[Any, ...]:  # noqa: ANN401  (any JSON)
     """Read numbers, nested as they were."""
     return tuple(_numbers(entry, kind) if isinstance(entry, list) else kind(entry) for entry in value)

@@ -12,14 +12,8 @@ import numpy as np
 
 from ...arrays import Mask, Samples, Series
 from ...errors import LogError
-from .stretch import Stretch
+from .stretch import GRID_STEPS, JUMP_FACTOR, USUAL_SHARE, Stretch
 
-LEAP = 6.0
-"""A leap is so many times the usual largest step of its joint, and the steps on either side."""
-USUAL_SHARE = 0.99
-"""Of the steps that are not zero: these are no more than the usual largest one."""
-GRID_STEPS = 3.0
-"""A leap is more than so many of the smallest steps of its joint."""
 MOVING = 0.1
 """A joint moves that steps by this share of its mean step."""
 ON_TIME = 2.0
@@ -52,13 +46,13 @@ class Leaps:
         prompt = waits < PROMPT * np.median(waits)
         prompt[: max(stretch.context - 2, 0)] = prompt[-1] = False
         for joint, own in enumerate(steps):
-            far = np.flatnonzero(prompt & (own > LEAP * own.mean()))
+            far = np.flatnonzero(prompt & (own > JUMP_FACTOR * own.mean()))
             if not len(far):
                 continue
             wrapped = _is_turn(own)[far]
             moved = ~wrapped & _stands_alone(own)[far]
             if moved.any():
-                moved &= own[far] > LEAP * _usual(own)
+                moved &= own[far] > JUMP_FACTOR * _usual(own)
                 moved &= np.delete(_goes_on(steps), joint, axis=0)[:, far].any(axis=0)
             for found, marks in ((self._wrapped, wrapped), (self._moved, moved)):
                 leaps = [(float(stretch.time[at + 1]), float(own[at])) for at in far[marks]]
@@ -101,7 +95,7 @@ class Leaps:
 def _usual(own: Samples) -> float:
     """Give the usual largest step of a joint, or what its resolution makes of it."""
     taken = own[own > 0.0]
-    return float(max(np.quantile(taken, USUAL_SHARE), GRID_STEPS / LEAP * taken.min()))
+    return float(max(np.quantile(taken, USUAL_SHARE), GRID_STEPS / JUMP_FACTOR * taken.min()))
 
 
 def _is_turn(own: Samples) -> Mask:
@@ -121,7 +115,7 @@ def _beside(own: Samples) -> tuple[Samples, Samples]:
 def _stands_alone(own: Samples) -> Mask:
     """Mark the steps that are many times those on either side, where the joint moves on both."""
     before, after = _beside(own)
-    marks: Mask = (own > LEAP * np.maximum(before, after)) & (np.minimum(before, after) > 0.0)
+    marks: Mask = (own > JUMP_FACTOR * np.maximum(before, after)) & (np.minimum(before, after) > 0.0)
     return marks
 
 

@@ -22,6 +22,12 @@ CONTEXT_ROWS = 4
 LEAST_TRAVEL_STEPS = 50.0
 LEAST_TRAVEL = 0.01
 """A joint within this many steps of its resolution, or this many rad or m, is held and not moved."""
+JUMP_FACTOR = 6.0
+"""A jump is so many times the difference, first or second, that 99 % of the samples stay below. Noise of any
+density stays below three times it, and a sine's largest difference equals it."""
+USUAL_SHARE = 0.99
+GRID_STEPS = 3.0
+"""A jump is more than so many of the smallest steps of its channel."""
 SAMPLED_ROWS = 200_000
 """Rows that a statistic may keep which needs all samples at once."""
 

@@ -12,14 +12,11 @@ import numpy as np
 
 from ...arrays import InstantMask, InstantSeries, JointSeries, JointVector, Samples
 from ..channels import EFFORTS
+from ..defects.stretch import GRID_STEPS, JUMP_FACTOR, USUAL_SHARE
 from ..model import STANDING_ROWS, LogRows
 
 FEWEST_ROWS = 100
 """Fewer rows than these have no body that an end could be compared with."""
-JUMP_FACTOR = 6.0
-"""A jump is so many times the second difference that 99 % of the body's samples stay below. Noise of any
-density stays below three times it, and a sine's largest second difference equals it."""
-USUAL_SHARE = 0.99
 ISOLATED = 4.0
 """The second difference of a jump is so many times the two that follow."""
 DISPLACED = 0.55
@@ -31,8 +28,6 @@ DISORDER = 0.01
 """Where the stamps of more rows than this share do not advance, it is no matter of the ends."""
 SPIKE_ROWS = 2
 """So many rows apart from those on either side are a spike, which the median filter removes."""
-GRID_STEPS = 3.0
-"""A jump is more than so many of the smallest steps of its channel."""
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,8 @@ both are left out before these are judged.
 import numpy as np
 
 from ...arrays import Indices, JointMask, JointSeries, JointVector, Mask, SampleMask, Samples
-from ..defects.stretch import count_text
+from ..defects.stretch import JUMP_FACTOR, USUAL_SHARE, count_text
 from ..model import STANDING_ROWS, Defect, LogRows, rows_at
-from .ends import JUMP_FACTOR, USUAL_SHARE
 
 _STATEMENTS = {
     "doubled_rows": "repeat the row before, stamp and all, and are left out",

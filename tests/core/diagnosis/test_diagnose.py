@@ -93,7 +93,7 @@ def test_what_happens_once_and_has_no_listed_shape_is_never_called_nothing():
     assert "Burst in the residual" in found.unnamed_pattern.statement
 
 
-def test_a_finding_says_what_it_brings_on_rows_that_no_fit_has_seen_beside_what_was_to_be_expected():
+def test_a_finding_states_its_gain_on_held_out_rows_beside_the_expected_one():
     (one,) = diagnosed(hidden).findings
     (holdout,) = (part for part in one.evidence if part.statistic == "held-out likelihood ratio")
     expected = float(holdout.statement.split("there, ")[1].split()[0])

@@ -243,6 +243,14 @@ def test_a_position_that_leaps_while_others_move_on_is_refused_with_row_and_size
     assert "unwrap" in error.remedy or "leap" in error.remedy
 
 
+@pytest.mark.parametrize("row", [32_766, 32_767, 32_768, 32_769, 32_772])
+@pytest.mark.parametrize("by", [0.5, 2.0 * np.pi])
+def test_a_leap_where_the_log_is_read_piece_by_piece_is_counted_once(row, by, tmp_path):
+    columns = swing(seconds=200.0)
+    columns["q_2"][row:] += by
+    assert refusal(columns, tmp_path).evidence["joint_2"]["jumps"] == 1
+
+
 def test_a_stretch_that_was_not_recorded_is_no_leap_of_a_joint(tmp_path):
     """Every moving joint is farther on at once, though the stamps go on evenly."""
     columns = swing()

@@ -82,14 +82,14 @@ def logged(torque: np.ndarray) -> Motion:
 
 
 def strayed(mechanism: Mechanism, motion: Motion) -> float:
-    """Give how far the driven robot strays, over how far it would without any model."""
+    """Give the simulated position error of the driven robot, over that without any model."""
     found = predict_motion(mechanism, (motion,), WINDOWS, chosen=LATER)
     return float(np.linalg.norm(found.position) / np.linalg.norm(found.still))
 
 
 @cache
 def plain() -> tuple[Mechanism, float]:
-    """Give the arm of the standard model, and how far it strays from the motion of its own torque."""
+    """Give the arm of the standard model, and its simulated position error under its own torque."""
     model = standard_model(skew_arm())
     alone = mechanism_of(model, true_parameters(model))
     return alone, strayed(alone, logged(model.torque(alone.parameters, motion_state())))

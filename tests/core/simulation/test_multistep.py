@@ -1,4 +1,4 @@
-"""Multi-step prediction on logs that pinocchio has made: the true model strays as far as noise pushes it."""
+"""Multi-step prediction on logs simulated by pinocchio: the true model's error is that of the noise."""
 
 import numpy as np
 import pytest

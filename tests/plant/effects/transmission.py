@@ -47,7 +47,7 @@ class JointElasticity(Effect):
 
 @dataclass(frozen=True)
 class Backlash(Effect):
-    """Let the link move freely by half_width to either side of the motor; stiff, damped contact beyond."""
+    """Let the link move freely within the amplitude half_width; stiff, damped contact beyond."""
 
     half_width: float
     contact: float

@@ -7,7 +7,7 @@ from tests.core.diagnosis.processes import SLOW, drawn
 from tests.core.diagnosis.regression.gls_world import smooth
 from veritorque.core.diagnosis.checks.gain import gain
 
-ROWS, UNSEEN = 4000, 1000
+ROWS, HELD_OUT = 4000, 1000
 
 
 def measured(seed: int, size: float):
@@ -16,7 +16,7 @@ def measured(seed: int, size: float):
     column = smooth(rng, ROWS, 1)[:, 0]
     before = drawn(SLOW, rng, ROWS, 2)
     before[:, 0] += size * column
-    seen, block = np.arange(ROWS) < ROWS - UNSEEN, np.arange(ROWS) // 500
+    seen, block = np.arange(ROWS) < ROWS - HELD_OUT, np.arange(ROWS) // 500
     value = (column[seen] @ before[seen, 0]) / (column[seen] @ column[seen])
     after = before.copy()
     after[:, 0] -= value * column
@@ -26,12 +26,12 @@ def measured(seed: int, size: float):
 
 def test_a_column_that_explains_nothing_gains_nothing_that_is_certain():
     found = [measured(seed, 0.0) for seed in range(40)]
-    # Luck lifts an interval of 95 % above zero once in forty.
+    # An interval of 95 % lies above zero by chance once in forty.
     assert sum(one.interval_95[0] > 0.0 for one in found) <= 4
     assert all(one.interval_95[0] <= one.total_percent <= one.interval_95[1] for one in found)
 
 
-def test_a_real_effect_gains_on_rows_that_no_fit_has_seen():
+def test_a_real_effect_gains_on_held_out_rows():
     for seed in range(10):
         found = measured(seed, 2.0)
         assert found.interval_95[0] > 0.0

@@ -1,4 +1,4 @@
-"""A short push beside a cause that brings far more is what that one leaves, unless it is far beyond luck."""
+"""A short push beside a far larger cause is a part of that one, unless its p-value is very small."""
 
 import numpy as np
 import pytest
@@ -22,13 +22,13 @@ ALWAYS = made_up("always", lambda state, scalars: [waves(state)])
 ONCE = made_up("once", lambda state, scalars: [push(state)], transient=True)
 WEAK, STRONG = 0.03, 50.0
 """N m, of what acts always; the noise is 0.05 N m."""
-LIKE_LUCK, CLEAR = 0.06, 0.08
+BY_CHANCE, CLEAR = 0.06, 0.08
 """N m, of the push: chances of 1e-24 and 1e-33."""
 
 
 @pytest.mark.parametrize(
     ("always", "once", "far_less", "expected"),
-    [(WEAK, LIKE_LUCK, False, False), (STRONG, LIKE_LUCK, True, True), (STRONG, CLEAR, True, False)],
+    [(WEAK, BY_CHANCE, False, False), (STRONG, BY_CHANCE, True, True), (STRONG, CLEAR, True, False)],
 )
 def test_a_push_is_told_from_what_a_strong_cause_leaves(always, once, far_less, expected):
     effect = on_joint(lambda state: always * waves(state) + once * push(state))

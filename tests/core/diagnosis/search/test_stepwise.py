@@ -1,4 +1,4 @@
-"""Hold the search to what it is for: what is there is named, what is not is not, a wrong start is mended."""
+"""The search names what is there and nothing else, and corrects a wrong start."""
 
 from dataclasses import replace
 from functools import cache
