@@ -1,6 +1,6 @@
 """Check a set-up in a second: whether robot and logs belong together, and what these logs can show.
 
-It asks what an identification asks, without redrawing it, and what a diagnosis could tell apart, without
+It asks what an identification asks, without redrawing it, and what a diagnosis could distinguish, without
 searching.
 """
 
@@ -43,7 +43,7 @@ def check_setup(request: IdentifyRequest, progress: Progress | None = None) -> d
 
 
 def _separability(found: Identification, blocks: int) -> Separability | None:
-    """Say which causes the logs tell apart; None where they are too short for a diagnosis."""
+    """Say which causes the logs distinguish; None where they are too short for a diagnosis."""
     plan = ColumnPlan(found.base.model, found.base.kept)
     try:
         return separability(DiagnosisProblem(plan, found.logs, found.held_out, blocks))

@@ -98,7 +98,7 @@ class Client:
         )
 
     def base_parameters(self, robot: RobotLike) -> dict[str, Any]:
-        """Say which combinations of parameters any motion of a robot can tell apart."""
+        """Say which combinations of parameters any motion of a robot can distinguish."""
         return self._transport.document("GET", f"/v1/robots/{segment(self._robot(robot))}/base-parameters")
 
     def audit(

@@ -58,7 +58,7 @@ class Rows:
 
 @dataclass(frozen=True, eq=False)
 class BaseParameters(Rows):
-    """The combinations of parameters that the motion can tell apart, and how well each is known.
+    """The combinations of parameters that the motion can distinguish, and how well each is known.
 
     Attributes
     ----------

@@ -5,7 +5,7 @@ from ..store.records import Document
 
 
 def base_parameters(description: Document) -> Document:
-    """Say which combinations of parameters any motion of a robot can tell apart.
+    """Say which combinations of parameters any motion of a robot can distinguish.
 
     Raises
     ------

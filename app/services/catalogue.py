@@ -114,7 +114,7 @@ class Catalogue:
         self._store.robots.remove(robot.id)
 
     def base_parameters(self, robot: RobotRecord) -> Document:
-        """Say what motion of a robot can tell apart; computed once and cached."""
+        """Say what motion of a robot can distinguish; computed once and cached."""
         if robot.id not in self._base_parameters:
             self._base_parameters[robot.id] = base_parameters(robot.description)
         return {"robot": robot.id} | self._base_parameters[robot.id]

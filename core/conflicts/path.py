@@ -17,7 +17,7 @@ class FoundConflict:
     before: Outcome
     after: Outcome
     confidence: float
-    """Probability that it, or one of those it cannot be told apart from, is the right correction."""
+    """Probability that it, or one of those it cannot be distinguished from, is the right correction."""
     equivalents: tuple[Hypothesis, ...]
     """Hypotheses of other kinds or joints that predict as well."""
 

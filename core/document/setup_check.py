@@ -129,7 +129,7 @@ def _matrix(pairs: tuple[Pair, ...]) -> dict[str, dict[str, str]]:
 
 
 def _not_separable(separable: Separability) -> list[dict[str, object]]:
-    """List the pairs that are not told apart, of causes that these logs can show at all."""
+    """List the pairs that are not distinguished, of causes that these logs can show at all."""
     visible = {site.cause.id for site in separable.shown if site.visible}
     return [
         _pair(pair) for pair in separable.pairs if pair.answer != "yes" and visible.issuperset(pair.causes)
@@ -137,7 +137,7 @@ def _not_separable(separable: Separability) -> list[dict[str, object]]:
 
 
 def _pair(pair: Pair) -> dict[str, object]:
-    """Say why two causes are not told apart, and which experiment does it."""
+    """Say why two causes are not distinguished, and which experiment does it."""
     first, second = pair.causes
     if pair.known is not None:
         why, experiment = pair.known.why, pair.known.experiment

@@ -1,4 +1,4 @@
-"""Weigh the rows beside a joint's reversals by their own noise, told from the log like the joints'.
+"""Weigh the rows beside a joint's reversals by their own noise, estimated from the log like the joints'.
 
 While a joint sticks, its friction is whatever holds it, between minus and plus Coulomb's level, and rows that
 the sign of a filtered velocity describes hold an error of up to that level. Where joints stick this is the

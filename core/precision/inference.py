@@ -141,7 +141,7 @@ def relative_deviation_percent(base: BaseParameters, deviation: Vector) -> Vecto
 def subset(precision: Inference, chosen: Indices, triangle: Matrix) -> Inference:
     """Give the inference of a model reduced to the chosen base parameters.
 
-    What the motion could not tell apart it may, once others are gone; so their `open_share` is found anew.
+    What the motion could not distinguish, it may, once others are gone; so their `open_share` is found anew.
     """
     square = np.ix_(chosen, chosen)
     was_open = precision.open_share[chosen]

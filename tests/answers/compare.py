@@ -1,7 +1,7 @@
 """Tell two result documents apart: what a program would notice, and what only a reader would.
 
 Both documents are walked together. A key that one of them lacks, another length, another number in its last
-digit, another name: each is a difference. Texts are told apart from names by a rule that a reader can check:
+digit, another name: each is a difference. Texts differ from names by a rule that a reader can check:
 a string is text if its key is in PROSE and it has a space in both documents. All other strings count like
 numbers. The order of keys is no part of an answer.
 """

@@ -1,4 +1,4 @@
-"""The comparison of answers: what a program would notice is told from what only a reader would."""
+"""The comparison of answers: what a program would notice is distinguished from what only a reader would."""
 
 import copy
 

@@ -24,7 +24,7 @@ class Answer:
     named: tuple[str, ...]
     """Conflicts with joints and channel, as text."""
     exact: bool
-    """Whether the hidden conflict is the only one named, or declared not to be told apart from it."""
+    """Whether the hidden conflict is the only one named, or declared not to be distinguished from it."""
     matters: bool
     """Whether it changes the error on held-out data by a fifth."""
     seconds: float

@@ -1,4 +1,4 @@
-"""Hold the diagnosis to measured robots: causes that are known to be there, and what their cures gain.
+"""Hold the diagnosis to measured robots: causes that are known to be there, and what their corrections gain.
 
 Errors are the RMS of the residual over the RMS of the torque, in percent per joint, on held-out motion, at
 the band of the fit. `make hidden` diagnoses a Rokae, too (see `tests.hidden.real`).

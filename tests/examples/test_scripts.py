@@ -64,7 +64,7 @@ def test_a_robot_of_ones_own_is_described_without_a_warning(folder, capsys):
 
     told = ran("03", capsys)
     assert "rarely meant" not in told
-    # every joint's viscous friction, Coulomb friction and offset are told apart, and one sum stands on a line
+    # every joint's viscous friction, Coulomb friction and offset are identifiable; one sum stands on a line
     (sums,) = re.findall(r"a motion tells (\d+) sums", told)
     assert len(re.findall(r"^(?:FV|FC|OFF)\d ", told, re.MULTILINE)) == 9
     assert int(sums) == len(re.findall(r"^[A-Z]+\d +\S", told, re.MULTILINE))

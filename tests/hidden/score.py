@@ -1,7 +1,7 @@
 """Score answers against what was hidden: named, exact, missed, extra, size, confidence, with intervals.
 
 A cause is named when a finding gives it on its joint, by its own name or among the alternatives that it
-says it cannot tell apart; it is exact when it is the finding's own name and joint. Sources: Clopper &
+says it cannot distinguish; it is exact when it is the finding's own name and joint. Sources: Clopper &
 Pearson, Biometrika 26 (1934), for the intervals; Brier, Monthly Weather Review 78 (1950), for the confidence.
 """
 
@@ -103,7 +103,7 @@ def _answer(truth: Truth, findings: list[Finding], hidden: tuple[Truth, ...], ve
 
 
 def _names(finding: Finding, truth: Truth) -> bool:
-    """Tell whether a finding gives this cause, or lists it as one that it cannot tell apart."""
+    """Tell whether a finding gives this cause, or lists it as one that it cannot distinguish."""
     return any(_is(one, truth) for one in (finding, *finding["ambiguous_with"]))
 
 

@@ -60,7 +60,7 @@ class LocalBackend:
         }
 
     def base_parameters(self, given: str, part: FromUrdf = WHOLE) -> Document:
-        """Say what motion of a robot can tell apart."""
+        """Say what motion of a robot can distinguish."""
         from ...kinds.base_parameters import base_parameters
 
         description = self.robot(given, part)["description"]

@@ -69,7 +69,7 @@ class Backend(Protocol):
         """Read a robot as `GET /v1/robots/{id}` gives it."""
 
     def base_parameters(self, given: str, part: FromUrdf = WHOLE) -> Document:
-        """Say what motion of a robot can tell apart."""
+        """Say what motion of a robot can distinguish."""
 
     def audit(self, given: str, part: FromUrdf, options: Document) -> Document:
         """Audit a robot's description without a log."""

@@ -33,7 +33,7 @@ class RemoteBackend:
         }
 
     def base_parameters(self, given: str, part: FromUrdf = WHOLE) -> Document:
-        """Say what motion of a robot can tell apart."""
+        """Say what motion of a robot can distinguish."""
         return self._client.base_parameters(self._robot(given, part))
 
     def audit(self, given: str, part: FromUrdf, options: Document) -> Document:

@@ -91,7 +91,7 @@ def _best(cause: Document) -> Document | None:
 
 
 def pair_line(pair: Document) -> str:
-    """Say why two causes are not told apart."""
+    """Say why two causes are not distinguished."""
     first, second = (cause.replace("_", " ") for cause in pair["causes"])
     joints = f" (joint {', '.join(map(str, pair['joints']))})" if pair["joints"] else ""
     return f"Not separable: {first} and {second}{joints}: {pair['why']}. Experiment: {pair['experiment']}."

@@ -64,7 +64,7 @@ def is_tilt(gravity: Vector3, described: Vector3) -> bool:
 
 
 def _likely(bound: Bound) -> Iterator[Vector3]:
-    """Give directions worth a trial; a planar arm cannot tell a direction from its mirror image."""
+    """Give directions worth a trial; a planar arm cannot distinguish a direction from its mirror image."""
     scores = np.array([bound(way) for way in _COARSE])
     first = _COARSE[np.argmin(scores)]
     apart = np.array([min(_angle(way, first), _angle(way, -first)) > MOUNTING.apart for way in _COARSE])

@@ -1,4 +1,4 @@
-"""Say which causes a log can show, from which size on, and which of them it can tell apart, without a search.
+"""Say which causes a log can show, from which size on, and which it can distinguish, without a search.
 
 What a cause adds to the torque is prewhitened, and projected on the complement of the model's columns. A
 cause of which nothing is left needs another motion. Two causes on the same joint of which nearly the same is
@@ -70,7 +70,7 @@ class Pair:
 
 @dataclass(frozen=True, eq=False)
 class Separability:
-    """Hold which causes a log can show, and which of them it tells apart."""
+    """Hold which causes a log can show, and which of them it distinguishes."""
 
     shown: tuple[Shown, ...]
     pairs: tuple[Pair, ...]

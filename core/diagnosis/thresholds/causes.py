@@ -96,7 +96,7 @@ class Events:
     least_share: float = 0.2
     """Share of the best event's score that others have to reach."""
     shortest: float = 0.2
-    """Seconds: what is shorter is an outlier, and what begins so soon after another is not told from it."""
+    """Seconds: what is shorter is an outlier, and what begins so soon after another belongs to it."""
     longest: float = 3.2
     """Seconds of the longest span in the grid: what is longer lasts."""
     edge: float = 0.6

@@ -58,7 +58,7 @@ class Unnamed:
 
 @dataclass(frozen=True)
 class Separation:
-    """Decide which causes a log can tell apart, before any is searched for. All are set by hand."""
+    """Decide which causes a log can distinguish, before any is searched for. All are set by hand."""
 
     scalars: int = 3
     """Values of a cause's scalars that are tried, from its whole grid."""

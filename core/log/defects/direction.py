@@ -1,4 +1,4 @@
-"""Find joints that move one way only: their Coulomb friction cannot be told from their torque offset.
+"""Find joints that move one way only: Coulomb friction and torque offset of these are not distinguished.
 
 The way is counted between instants a tenth of a second apart, so that noise gets nowhere.
 """
@@ -42,7 +42,7 @@ class Direction:
                     f"Joint {number} moves one way only: {self._up[joint]:.3g} {unit} up and "
                     f"{self._down[joint]:.3g} {unit} down. Its Coulomb friction FC{number} and its torque "
                     f"offset OFF{number} are then one number, and what is said of each alone is not known. A "
-                    "motion that covers the same range in both directions tells them apart."
+                    "motion that covers the same range in both directions distinguishes them."
                 )
                 found.append(Defect("one_direction", "position", number, facts.samples, (), statement))
         return found

@@ -285,7 +285,7 @@ def test_robots_are_shown_as_they_are_understood(planar):
     (planar / "again.json").write_text(json.dumps(written))
     assert json.loads(run("robots", "show", "again.json", "--json").stdout) == written
     assert "planar arm: 2 joints" in run("robots", "check", "arm.json").stdout
-    # 22 standard parameters would be an arm with rotor inertias; 12 of these are told apart in a plane
+    # 22 standard parameters would be an arm with rotor inertias; 12 of these are distinguished in a plane
     assert "12 base parameters" in run("robots", "base-parameters", "arm.json").stdout
 
 

@@ -153,7 +153,7 @@ def test_a_lift_tells_its_mass_from_its_rotor_and_a_sledge_does_not():
 
 def test_a_gantry_shows_the_masses_that_each_axis_moves():
     # By hand: axis 1 moves M1 + M2 + M3 and its rotor, axis 2 M2 + M3, the lift M3. Only the lift feels
-    # gravity, so only there the rotor is told apart. With base values m1, m2 the torques are
+    # gravity, so only there the rotor is distinguished. With base values m1, m2 the torques are
     # (m1 + m2 + M3) q1'' and (m2 + M3) q2'', hence m2 = M2 + IA2 and m1 = M1 + IA1 - IA2.
     first, turn = rotation_rpy(0.0, np.pi / 2, 0.0), rotation_rpy(0.0, np.pi / 2, np.pi / 2)
     axis_1, axis_2, axis_3 = first[:, 2], (first @ turn)[:, 2], (first @ turn @ turn)[:, 2]

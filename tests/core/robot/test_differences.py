@@ -1,4 +1,4 @@
-"""Tell robots apart by what their torque knows of them, and by nothing else."""
+"""Distinguish robots by what determines their torque, and by nothing else."""
 
 from dataclasses import replace
 

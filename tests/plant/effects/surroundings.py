@@ -49,7 +49,7 @@ class PayloadChange(Effect):
 
 @dataclass(frozen=True)
 class SpringCompensator(Effect):
-    """Demand stiffness (q - rest_angle) of the drive; the rest angle cannot be told from the offset."""
+    """Demand stiffness (q - rest_angle) of the drive; rest angle and offset are not distinguished."""
 
     stiffness: float
     rest_angle: float

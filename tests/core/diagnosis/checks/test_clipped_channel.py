@@ -1,4 +1,4 @@
-"""A channel that reads no more than a limit is told from a drive at its limit by what the motion asks for."""
+"""A channel that reads no more than a limit differs from a drive at its limit by what the motion needs."""
 
 import numpy as np
 

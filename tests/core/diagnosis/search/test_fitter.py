@@ -1,4 +1,4 @@
-"""Hold a scan to giving what nature allows, and a hypothesis to counting only what its rows tell."""
+"""A scan gives only what is physically admissible, and a hypothesis counts only what its rows determine."""
 
 from dataclasses import replace
 from typing import ClassVar
@@ -26,7 +26,7 @@ def wave(state, scalars):
 
 
 def scanned(allowed) -> ScoredCandidate:
-    """Scan both waves, of which nature allows those that are given."""
+    """Scan both waves, of which those that are given are physically admissible."""
     cause = made_up("wave", wave, RATES, allowed=lambda one: one["rate"] in allowed)
     fitter = fitter_of(measured_arm(WAVE), (cause,))
     (found,) = fitter.scan(nothing_found(fitter))
