@@ -65,7 +65,7 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
         Resolution(samples),
     )
     repeats, bandwidth, spikes = Repeats(joints), Bandwidth(joints), Spikes(joints)
-    stuck, leaps = Stuck(joints, repeats), Leaps(layout.si_units()["position"])
+    stuck, leaps = Stuck(joints, repeats), Leaps(layout.si_units()["position"], row_in_file)
     finders: list[Finder] = [
         clock, repeats, stuck, Saturation(joints), resolution, Rest(samples), bandwidth, Direction(joints),
         Velocity(joints),

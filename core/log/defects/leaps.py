@@ -6,7 +6,8 @@ missed look alike, but then every moving joint is farther on at once; a position
 to a channel that hangs. A step of a whole turn is a wrapped angle, whatever else there is.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -26,6 +27,12 @@ PROMPT = 3.0
 """Between samples farther apart than so many usual intervals a joint may get anywhere."""
 
 
+class _Leap(NamedTuple):
+    row: int
+    time: float
+    size: float
+
+
 class Leaps:
     """Count the steps between neighbouring samples that no motion explains.
 
@@ -33,12 +40,14 @@ class Leaps:
     ----------
     units
         SI unit of each joint's position.
+    row_in_file
+        Gives the number that a row of the source has in the file.
     """
 
-    def __init__(self, units: Sequence[str]) -> None:
-        self._units = units
-        self._wrapped: dict[int, list[tuple[float, float]]] = {}
-        self._moved: dict[int, list[tuple[float, float]]] = {}
+    def __init__(self, units: Sequence[str], row_in_file: Callable[[int], int]) -> None:
+        self._units, self._row_in_file = units, row_in_file
+        self._wrapped: dict[int, list[_Leap]] = {}
+        self._moved: dict[int, list[_Leap]] = {}
 
     def update(self, stretch: Stretch) -> None:
         """Take the next stretch into account; its last step is judged with the one after it, in the next."""
@@ -55,7 +64,10 @@ class Leaps:
                 moved &= own[far] > JUMP_FACTOR * _usual(own)
                 moved &= np.delete(_goes_on(steps), joint, axis=0)[:, far].any(axis=0)
             for found, marks in ((self._wrapped, wrapped), (self._moved, moved)):
-                leaps = [(float(stretch.time[at + 1]), float(own[at])) for at in far[marks]]
+                leaps = [
+                    _Leap(stretch.first + int(at) + 1, float(stretch.time[at + 1]), float(own[at]))
+                    for at in far[marks]
+                ]
                 found.setdefault(joint, []).extend(leaps)
 
     def check(self) -> None:
@@ -80,12 +92,13 @@ class Leaps:
                 "there, or wrapped in another unit than the declared one; else send the parts as two logs",
             )
 
-    def _evidence(self, found: dict[int, list[tuple[float, float]]]) -> dict[str, object]:
+    def _evidence(self, found: dict[int, list[_Leap]]) -> dict[str, object]:
         return {
             f"joint_{joint + 1}": {
                 "jumps": len(leaps),
-                "first_at_s": leaps[0][0],
-                f"largest_{self._units[joint]}": max(step for _, step in leaps),
+                "first_row": self._row_in_file(leaps[0].row) + 1,
+                "first_at_s": leaps[0].time,
+                f"largest_{self._units[joint]}": max(leap.size for leap in leaps),
             }
             for joint, leaps in sorted(found.items())
             if leaps

@@ -248,7 +248,16 @@ def test_a_position_that_leaps_while_others_move_on_is_refused_with_row_and_size
 def test_a_leap_where_the_log_is_read_piece_by_piece_is_counted_once(row, by, tmp_path):
     columns = swing(seconds=200.0)
     columns["q_2"][row:] += by
-    assert refusal(columns, tmp_path).evidence["joint_2"]["jumps"] == 1
+    found = refusal(columns, tmp_path).evidence["joint_2"]
+    assert (found["jumps"], found["first_row"]) == (1, row + 1)
+
+
+def test_the_row_of_a_leap_counts_the_rows_that_were_left_out(tmp_path):
+    columns = leapt(0.5)
+    for name, values in columns.items():
+        if name != "time":
+            values[:40] = 0.0
+    assert refusal(columns, tmp_path).evidence["joint_2"]["first_row"] == 1001
 
 
 def test_a_stretch_that_was_not_recorded_is_no_leap_of_a_joint(tmp_path):
