@@ -8,7 +8,7 @@ from starlette.testclient import TestClient
 
 from tests.hostile import hdf5, matlab, npz, parquet, recordings, text
 from tests.hostile.specimen import SECRET_TEXT, SPECIMENS, Place, Specimen
-from tests.hostile.watch import Memory, Openings
+from tests.hostile.watch import Openings, Readers
 
 CHAPTERS = (hdf5, matlab, npz, parquet, recordings, text)
 """Importing these fills `SPECIMENS`."""
@@ -21,7 +21,10 @@ MOST_OF_SOUND = 15.0
 
 @dataclass(frozen=True)
 class Treatment:
-    """Hold how the service treated one file, and what a sound log took beside it if that was late, s."""
+    """Hold how the service treated one file, and what a sound log took beside it if that was late, s.
+
+    The seconds are those that the reading process did not wait for a processor.
+    """
 
     label: str
     bytes: int
@@ -55,8 +58,9 @@ def treat(client: TestClient, specimen: Specimen, place: Place) -> Treatment:
     """Make a file, upload it, and see what happens."""
     content = specimen.make(place)
     openings = Openings(place.secret, place.secret_hdf5)
-    with Memory() as memory:
+    with Readers() as readers:
         answer, seconds = _uploaded(client, content)
+    seconds -= readers.waited_s
     opened = openings.count()
     openings.close()
     return Treatment(
@@ -66,7 +70,7 @@ def treat(client: TestClient, specimen: Specimen, place: Place) -> Treatment:
         cause=answer.json().get("cause", "accepted"),
         seconds=seconds,
         sound_seconds=_uploaded(client, text.table())[1] if seconds > MOST_SECONDS else 0.0,
-        peak_mb=memory.peak_mb,
+        peak_mb=readers.peak_mb,
         openings=opened,
         leaked=SECRET_TEXT in answer.content,
     )

@@ -1,6 +1,6 @@
 """Watch what hostile files are not to do: open the files of others, and take memory or time.
 
-Opened files are told by the kernel (inotify), memory is read of the processes that do the reading.
+The kernel reports opened files (inotify), and the memory and waiting of the processes that do the reading.
 """
 
 import ctypes
@@ -38,21 +38,22 @@ class Openings:
         os.close(self._queue)
 
 
-class Memory:
-    """Follow the most memory, MB, that a process which may read an upload takes from now on.
+class Readers:
+    """Follow the processes that may read an upload from now on: the most memory, and their waiting.
 
     Such processes are forks of one server, and so are those that compute jobs of other services in here.
-    Hence what counts is by how much the largest size of one grows: of a new one, beyond the server's.
+    Hence what counts is by how much the largest size of one grows: of a new one, beyond the server's. What
+    they wait for a processor that others use is the longest wait of one.
     """
 
     def __init__(self) -> None:
-        self.peak_mb = 0.0
-        self._before: dict[str, float] = {}
+        self.peak_mb = self.waited_s = 0.0
+        self._before: dict[str, tuple[float, float]] = {}
         self._over = threading.Event()
         self._thread = threading.Thread(target=self._follow, daemon=True)
 
     def __enter__(self) -> Self:
-        self._before = {fork: _memory_mb(fork, "VmHWM") for fork in _forks()}
+        self._before = {fork: (_memory_mb(fork, "VmHWM"), _waited_s(fork)) for fork in _forks()}
         self._thread.start()
         return self
 
@@ -63,8 +64,9 @@ class Memory:
     def _follow(self) -> None:
         while not self._over.is_set():
             for fork in _forks():
-                before = self._before.setdefault(fork, _memory_mb(_server(), "VmRSS"))
-                self.peak_mb = max(self.peak_mb, _memory_mb(fork, "VmHWM") - before)
+                memory, waited = self._before.setdefault(fork, (_memory_mb(_server(), "VmRSS"), 0.0))
+                self.peak_mb = max(self.peak_mb, _memory_mb(fork, "VmHWM") - memory)
+                self.waited_s = max(self.waited_s, _waited_s(fork) - waited)
             time.sleep(LOOK_EVERY_S)
 
 
@@ -87,3 +89,11 @@ def _memory_mb(process: str, kind: str) -> float:
     except OSError:
         return 0.0
     return int(found[1]) / 1024.0 if found else 0.0
+
+
+def _waited_s(process: str) -> float:
+    """Give how long a process could have run and had no processor, s."""
+    try:
+        return int(Path(f"/proc/{process}/schedstat").read_text().split()[1]) / 1e9
+    except (OSError, IndexError):
+        return 0.0
