@@ -54,9 +54,9 @@ class Samples:
 def _tiles(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Iterator[tuple[Tile, bool]]:
     """Give the tiles that are not held out, and whether each judges."""
     for number, motion in enumerate(motions):
-        for tile in motion.tiles():
-            if (number, tile.block) not in held_out:
-                yield tile, _is_judged(tile.block, number, held_out)
+        fitted = {block for block in range(motion.blocks) if (number, block) not in held_out}
+        for tile in motion.tiles(fitted):
+            yield tile, _is_judged(tile.block, number, held_out)
 
 
 def sampled(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Samples:

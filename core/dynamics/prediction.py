@@ -59,6 +59,13 @@ class Prediction:
         default_factory=WeakKeyDictionary, init=False, repr=False
     )
 
+    def joined_by(self, terms: Iterable[tuple[Term, Weights]]) -> "Prediction":
+        """Join further terms to the model; what is computed of the model alone is then shared."""
+        more = replace(self, joined=(*self.joined, *terms))
+        for shared in ("_loads", "_torques", "_slopes"):
+            object.__setattr__(more, shared, getattr(self, shared))  # no other copy may share them
+        return more
+
     def torque(self, state: MotionState) -> JointSeries:
         """Give the torque of all the model's terms, N m or N."""
         if state not in self._torques:

@@ -39,9 +39,9 @@ class Term(Protocol):
         """Give the torque per unit parameter, one row per entry (N m or N per unit of the parameter)."""
 
 
-@runtime_checkable
-class LinearisedTerm(Protocol):
-    """Define a term whose columns depend on the prediction that the model is linearised at."""
+def is_linearised(term: Term) -> bool:
+    """Tell whether a term's columns depend on the prediction that the model is linearised at.
 
-    believed: object
-    """That prediction, by the name that its key has in model files."""
+    Such a term holds that prediction, by the name that its key has in model files.
+    """
+    return hasattr(term, "believed")

@@ -88,6 +88,17 @@ def _add(total, factor, row) -> None:
         total[place] += factor * row[place]
 
 
+@njit(inline="always")
+def _add_four(total, factors, rows) -> None:
+    """Add the last of four rows first: the sums are those of one after the other, and stored once."""
+    first, second, third, fourth = rows[3], rows[2], rows[1], rows[0]
+    for place in range(len(total)):
+        once = total[place] + factors[0] * first[place]
+        twice = once + factors[1] * second[place]
+        thrice = twice + factors[2] * third[place]
+        total[place] = thrice + factors[3] * fourth[place]
+
+
 @njit("float64[:,::1](float64[:,::1], int64[::1], float64[:,::1])", **_EXACT)
 def _prewhiten(rows, past, weights) -> np.ndarray:  # pragma: no cover  (compiled)
     most = len(weights) - 1
@@ -100,7 +111,10 @@ def _prewhiten(rows, past, weights) -> np.ndarray:  # pragma: no cover  (compile
                 total += weights[known, lag] * rows[row - lag, 0]
             white[row, 0] = total
             continue
-        for lag in range(known + 1):
+        last = known + 1 - (known + 1) % 4
+        for lag in range(0, last, 4):
+            _add_four(white[row], weights[known, lag : lag + 4], rows[row - lag - 3 : row - lag + 1])
+        for lag in range(last, known + 1):
             _add(white[row], weights[known, lag], rows[row - lag])
     return white
 

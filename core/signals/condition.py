@@ -4,7 +4,7 @@ The log's gap-free parts are conditioned one by one (see `segment`); the paralle
 equations are written. Nothing is computed before the tiles are asked for, so a log's length costs no memory.
 """
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
@@ -40,8 +40,8 @@ class Motion:
         """Count the decimated samples of all segments."""
         return sum(segment.kept for segment in self.segments)
 
-    def tiles(self) -> Iterator[Tile]:
-        """Go through the motion once."""
+    def tiles(self, blocks: Container[int] | None = None) -> Iterator[Tile]:
+        """Go once through some blocks of the motion (all by default); no others are conditioned."""
         borders = [self.kept * number // self.blocks for number in range(self.blocks + 1)]
         done = 0
         for segment in self.segments:
@@ -51,6 +51,8 @@ class Motion:
             ordered = sorted(cuts)
             for begin, end in pairwise(ordered):
                 block = int(np.searchsorted(borders, done + begin, side="right")) - 1
+                if blocks is not None and block not in blocks:
+                    continue
                 for start in range(begin, end, TILE_KEPT):
                     yield segment.tile(self.effort_scale, start, min(start + TILE_KEPT, end), block)
             done += segment.kept

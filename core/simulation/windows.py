@@ -58,13 +58,15 @@ DrivenBy = Callable[[Stretch], JointSeries]
 def stretches(motions: tuple[Motion, ...], chosen: frozenset[BlockKey] | None = None) -> Iterator[Stretch]:
     """Go through the motions block by block (all blocks by default)."""
     for log, motion in enumerate(motions):
+        blocks = None if chosen is None else {block for number, block in chosen if number == log}
         run: list[Tile] = []
-        for tile in without_standstill_mask(motion).tiles():
+        for tile in without_standstill_mask(motion).tiles(blocks):
             if run and not (tile.follows and tile.block == run[-1].block):
-                yield from _join_stretches(log, run, chosen)
+                yield from _usable_part((log, run[0].block), run)
                 run = []
             run.append(tile)
-        yield from _join_stretches(log, run, chosen)
+        if run:
+            yield from _usable_part((log, run[0].block), run)
 
 
 def measured_torque(stretch: Stretch) -> JointSeries:
@@ -116,11 +118,6 @@ def windows(
 def same_clock(one: float, other: float) -> bool:
     """Tell whether two steps (s) differ by rounding only."""
     return abs(one - other) <= 1e-6 * one
-
-
-def _join_stretches(log: int, run: list[Tile], chosen: frozenset[BlockKey] | None) -> Iterator[Stretch]:
-    if run and (chosen is None or (log, run[0].block) in chosen):
-        yield from _usable_part((log, run[0].block), run)
 
 
 def _usable_part(key: BlockKey, run: list[Tile]) -> Iterator[Stretch]:

@@ -59,28 +59,53 @@ def compare_alternatives(found: SearchState) -> tuple[SearchState, list[Comparis
     """
     state, unnamed = found, unnamed_candidates(found.fitter)
     while True:
-        comparisons = [_comparison(state, index, unnamed) for index in range(len(state.chosen.members))]
-        most = max((own.statistic for own in comparisons), default=0.0)
-        weak = [own for own in comparisons if _is_dropped(state, own, alone=own.statistic >= most)]
-        if not weak:
-            return state, comparisons
-        least = min(weak, key=lambda own: own.statistic)
-        fitter = state.fitter.linearised_at(least.without)
-        state = state.at(fitter, fitter.fit(least.without.members, least.without))
-        state = state.recorded("dropped", least.member, -least.statistic).excluding(least.member.key)
+        refitted = [refit_member(state, index) for index in range(len(state.chosen.members))]
+        pairs = zip(state.fitter.fit_without_each(state.chosen), refitted, strict=True)
+        brings = [likelihood_ratio(without, own) for without, own in pairs]
+        comparisons: list[Comparison] = []
+        # The first to be dropped is the least significant one, so no other is compared before it is gone.
+        for index in sorted(range(len(brings)), key=brings.__getitem__):
+            if _is_inadmissible(state, index):
+                break
+            own = _comparison(state, index, refitted[index], unnamed)
+            if _is_surrogate(state, own, alone=own.statistic >= max(brings)):
+                break
+            comparisons.append(own)
+        else:
+            return state, sorted(comparisons, key=lambda own: own.index)
+        state = _dropped(state, index, brings[index])
 
 
-def _comparison(state: SearchState, index: int, unnamed: tuple[Candidate, ...]) -> Comparison:
-    own = compare_member(state, index)
+def refit_member(state: SearchState, index: int) -> Hypothesis:
+    """Fit a member again on top of the others, from the noise that they have without it."""
+    without = state.fitter.fit_without_each(state.chosen)[index]
+    return state.fitter.fit((*without.members, state.chosen.members[index]), without)
+
+
+def _dropped(state: SearchState, index: int, brings: float) -> SearchState:
+    """Give the state without a member, linearised there."""
+    without, member = state.fitter.fit_without_each(state.chosen)[index], state.chosen.members[index]
+    fitter = state.fitter.linearised_at(without)
+    less = state.at(fitter, fitter.fit(without.members, without))
+    return less.recorded("dropped", member, -brings).excluding(member.key)
+
+
+def _comparison(
+    state: SearchState, index: int, refitted: Hypothesis, unnamed: tuple[Candidate, ...]
+) -> Comparison:
+    own = compare_member(state, index, refitted)
     return replace(own, over_unnamed=_over_unnamed(state.fitter, own, unnamed))
 
 
-def _is_dropped(state: SearchState, own: Comparison, *, alone: bool) -> bool:
-    """Tell whether a member is inadmissible, of an implausible size, or a surrogate."""
+def _is_inadmissible(state: SearchState, index: int) -> bool:
+    """Tell whether a member is inadmissible, or of an implausible size."""
+    return not state.chosen.admits(index) or not has_plausible_size(state.fitter, state.chosen, index)
+
+
+def _is_surrogate(state: SearchState, own: Comparison, *, alone: bool) -> bool:
+    """Tell whether another candidate or pattern should stand for a member, or none."""
     return (
-        not state.chosen.admits(own.index)
-        or not has_plausible_size(state.fitter, state.chosen, own.index)
-        or (own.margin < -SELECTION.undecided and not alone)
+        (own.margin < -SELECTION.undecided and not alone)
         or _reduces_no_error(state.fitter, state.chosen, own, alone=alone)
         or _pattern_is_better(own)
     )
@@ -137,11 +162,16 @@ def _pattern_is_better(own: Comparison) -> bool:
     return own.over_unnamed < -max(SELECTION.undecided, ALTERNATIVES.unnamed_share * own.statistic)
 
 
-def compare_member(state: SearchState, index: int) -> Comparison:
-    """Compare a member with the best of all other candidates in its place, but for excluded ones."""
+def compare_member(state: SearchState, index: int, own: Hypothesis) -> Comparison:
+    """Compare a member with the best of all other candidates in its place, but for excluded ones.
+
+    Parameters
+    ----------
+    own
+        The hypothesis with the member as `refit_member` gives it.
+    """
     fitter, chosen = state.fitter, state.chosen
     member, without = chosen.members[index], fitter.fit_without_each(chosen)[index]
-    own = fitter.fit((*without.members, member), without)
     ambiguous, refuted, margin = [], [], np.inf
     own_gain, own_ratio = bic_gain(without, own), likelihood_ratio(without, own)
     for trial in _trials(state, without):

@@ -27,7 +27,7 @@ def has_holdout_outliers(fitter: HypothesisFitter, found: Hypothesis) -> bool:
     """Tell whether the error of a held-out block is far larger than that of any fitted one."""
     holdout = append_columns(fitter.rows.held_out, fitter.columns(found.members))
     for part, fitted, seen in zip(holdout, found.fit.joints, fitter.rows.fitted, strict=True):
-        missed = (part.torque - part.columns @ found.fit.values)[:, None]
+        missed = part.left(found.fit.values)[:, None]
         left = prewhitened_residual(part, fitted.noise, missed)[:, 0]
         known = fitted.left(found.fit.values)
         new, old = (_powers(fitter.dataset, *pair) for pair in ((part.rows, left), (seen.rows, known)))

@@ -113,7 +113,7 @@ def _white_noise(joints: tuple[JointRows, ...], sized: Iterable[Weights]) -> tup
 
 
 def _size(joints: tuple[JointRows, ...]) -> int:
-    return int(joints[0].columns.shape[1])
+    return joints[0].size
 
 
 def _residuals(joints: tuple[JointRows, ...], found: Fit) -> list[Weights]:
@@ -141,10 +141,7 @@ def refit(
     touched
         Joints (from 0) whose noise is estimated again; None for all.
     """
-    parts = tuple(
-        old.with_columns(kept, rows.columns[:, kept:])
-        for old, rows in zip(before.joints, joints, strict=True)
-    )
+    parts = tuple(old.with_columns(kept, rows) for old, rows in zip(before.joints, joints, strict=True))
     plain = None if before.plain is None else refit(joints, before.plain, kept, rounds=0)
     return _iterate(joints, _solve(parts, _size(joints), before.prior, plain), touched, rounds)
 
@@ -175,7 +172,7 @@ def _reestimate_noise(joints: tuple[JointRows, ...], found: Fit, touched: frozen
 def degrees_of_freedom(rows: JointRows, joints: tuple[JointRows, ...]) -> float:
     """Count a fit's degrees of freedom on one joint's rows: nuisance columns and a share of the others."""
     total = sum(len(joint.rows) for joint in joints)
-    return float(rows.nuisance.count + rows.columns.shape[1] * len(rows.rows) / max(total, 1))
+    return float(rows.nuisance.count + rows.size * len(rows.rows) / max(total, 1))
 
 
 def _gram(joints: tuple[Prewhitened, ...], size: int, prior: GaussianPrior | None) -> np.ndarray:

@@ -51,20 +51,20 @@ class Prewhitened:
 
     def residual(self, rows: JointRows, values: Weights) -> Vector:
         """Give what the columns leave of the same rows, N m, what free ones take being judged when white."""
-        left = rows.torque - rows.columns @ values
+        left = rows.left(values)
         free = self.nuisance.coefficients(self.white(left[:, None])[:, 0])
         return np.asarray(left - rows.nuisance.columns.combined(free[:, None])[:, 0])
 
-    def with_columns(self, kept: int, further: Matrix) -> "Prewhitened":
-        """Keep the first columns and put others, not yet white, beside them."""
-        own = int(np.searchsorted(self.acting, kept))
+    def with_columns(self, kept: int, rows: JointRows) -> "Prewhitened":
+        """Keep the first columns and put those behind of the same rows, not yet white, beside them."""
+        own, first = (int(np.searchsorted(acting, kept)) for acting in (self.acting, rows.acting))
         before, kept_inside = self.columns[:, :own], self.inside[:, :own]
-        if not further.any():
+        new = rows.acting[first:]
+        if not len(new):
             return replace(
                 self, acting=self.acting[:own], columns=before, inside=kept_inside, gram=self.gram[:own, :own]
             )
-        new = np.flatnonzero(further.any(axis=0))
-        white = self.white(further[:, new])
+        white = self.white(rows.columns[:, first:])
         inside = self.nuisance.in_span(white)
         gram = np.empty((own + len(new), own + len(new)))
         gram[:own, :own] = self.gram[:own, :own]
@@ -73,7 +73,7 @@ class Prewhitened:
         gram[own:, own:] = _gram(white, inside)
         return replace(
             self,
-            acting=np.append(self.acting[:own], kept + new),
+            acting=np.append(self.acting[:own], new),
             columns=np.hstack([before, white]),
             inside=np.hstack([kept_inside, inside]),
             gram=gram,
@@ -83,7 +83,7 @@ class Prewhitened:
 def prewhiten(rows: JointRows, noise: ARNoise) -> Prewhitened:
     """Whiten one joint's rows."""
     nuisance = _white_nuisance(rows, noise)
-    columns = noise.whitened(rows.acting_columns, rows.run_index)
+    columns = noise.whitened(rows.columns, rows.run_index)
     inside = nuisance.in_span(columns)
     torque = nuisance.without_nuisance(noise.whitened(rows.torque[:, None], rows.run_index))[:, 0]
     return Prewhitened(

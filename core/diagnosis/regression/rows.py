@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
@@ -22,26 +21,23 @@ class JointRows:
     rows: Indices
     run_index: Indices
     """Which rows of the data set, and their indices within runs."""
-    columns: Matrix
+    size: int
+    """Number of columns of all joints together."""
+    acting: Indices
+    """Which of them are not all zero on the rows, in rising order."""
+    columns: EquationRows
     torque: Vector
-    """What is fitted, and what it is fitted to."""
+    """Those columns, and what they are fitted to."""
     nuisance: Nuisance
     """Nuisance columns: friction while the joint sticks."""
 
-    @cached_property
-    def acting(self) -> Indices:
-        """List the columns that are not all zero on the rows."""
-        return np.flatnonzero(self.columns.any(axis=0))
-
-    @cached_property
-    def acting_columns(self) -> EquationRows:
-        """Give those columns."""
-        return np.ascontiguousarray(self.columns[:, self.acting])
+    def left(self, values: Weights) -> Vector:
+        """Give what all columns leave of the torque, N m or N."""
+        return np.asarray(self.torque - self.columns @ values[self.acting])
 
     def residual(self, values: Weights) -> Vector:
         """Give the residual of the columns, on the complement of the nuisance columns."""
-        left = self.torque - self.columns @ values
-        return self.nuisance.without_nuisance(left[:, None])[:, 0]
+        return self.nuisance.without_nuisance(self.left(values)[:, None])[:, 0]
 
 
 def rows_of_joints(dataset: Dataset, columns: Sequence[Matrix], mask: np.ndarray) -> tuple[JointRows, ...]:
@@ -49,11 +45,15 @@ def rows_of_joints(dataset: Dataset, columns: Sequence[Matrix], mask: np.ndarray
     out = []
     for joint in range(dataset.joints):
         rows = np.flatnonzero(mask[:, joint])
+        own = columns[joint][rows]
+        acting = np.flatnonzero(own.any(axis=0))
         out.append(
             JointRows(
                 rows,
                 run_indices(dataset.follows(rows)),
-                columns[joint][rows],
+                own.shape[1],
+                acting,
+                np.ascontiguousarray(own[:, acting]),
                 dataset.torque[rows, joint],
                 independent_nuisance(dataset.sticking[joint][rows]),
             )
@@ -66,8 +66,13 @@ def append_columns(joints: tuple[JointRows, ...], columns: Sequence[Columns]) ->
     widths = [next(iter(own.values())).shape[1] for own in columns]
     out = []
     for joint, rows in enumerate(joints):
-        parts = [rows.columns]
+        size, acting, parts = rows.size, [rows.acting], [rows.columns]
         for own, width in zip(columns, widths, strict=True):
-            parts.append(own[joint][rows.rows] if joint in own else np.zeros((len(rows.rows), width)))
-        out.append(replace(rows, columns=np.hstack(parts)))
+            if joint in own:
+                part = own[joint][rows.rows]
+                acts = part.any(axis=0)
+                acting.append(size + np.flatnonzero(acts))
+                parts.append(part[:, acts])
+            size += width
+        out.append(replace(rows, size=size, acting=np.concatenate(acting), columns=np.hstack(parts)))
     return tuple(out)

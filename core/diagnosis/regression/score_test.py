@@ -78,7 +78,7 @@ class _Alike:
 
     def scores(self, found: Fit) -> list[Score]:
         count, size, width = self._count, len(found.values), self._width
-        cross = np.zeros((count, size, width))
+        cross = np.zeros((size, count, width))
         right, squares = np.zeros((count, width)), np.zeros((count, width))
         grams = np.zeros((count, width, width))
         for joint, present in enumerate(self._present):
@@ -89,13 +89,11 @@ class _Alike:
             inside = own.nuisance.in_span(white)
             right[present] += (found.left[joint] @ white).reshape(-1, width)
             both = own.columns.T @ white - own.inside.T @ inside
-            both = both.reshape(len(own.acting), len(present), width)
-            cross[present[:, None], own.acting] += np.moveaxis(both, 0, 1)
+            cross[np.ix_(own.acting, present)] += both.reshape(len(own.acting), len(present), width)
             whole = _grams(white, width)
             squares[present] += np.diagonal(whole, axis1=1, axis2=2)
             grams[present] += whole - _grams(inside, width)
-        flat = np.moveaxis(cross, 0, 1).reshape(size, -1)
-        reduced, _ = dtrtrs(found.factor, flat / found.scale[:, None], lower=1)
+        reduced, _ = dtrtrs(found.factor, cross.reshape(size, -1) / found.scale[:, None], lower=1)
         return _test_scores(grams - _grams(reduced, width), right, squares)
 
 
@@ -169,8 +167,11 @@ def _test_scores(grams: np.ndarray, right: Matrix, squares: Matrix) -> list[Scor
     projected = np.einsum("nij,ni->nj", spread, right[tested])
     covariance = np.einsum("nij,nj,nkj->nik", spread, inverse, spread)
     found = np.einsum("nij,nj->ni", spread, projected * inverse)
-    for row, index in enumerate(np.flatnonzero(tested)):
-        statistic = float(projected[row] ** 2 @ inverse[row])
-        freedom = int(np.count_nonzero(inverse[row]))
-        out[index] = Score(statistic, freedom, found[row], covariance[row], float(clear[index]))
+    statistics = np.sum(projected**2 * inverse, axis=1).tolist()
+    freedoms = np.count_nonzero(inverse, axis=1).tolist()
+    shares = clear[tested].tolist()
+    for index, *tests in zip(
+        np.flatnonzero(tested).tolist(), statistics, freedoms, found, covariance, shares, strict=True
+    ):
+        out[index] = Score(*tests)
     return out

@@ -1,7 +1,7 @@
 """Hold the candidates at one operating point, and what was computed for them there."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from weakref import WeakKeyDictionary
 
@@ -99,5 +99,5 @@ def extended_prediction(dataset: Dataset, found: Hypothesis, operating_point: Pr
             term = member.term(dataset, operating_point)
             if joins(term) and not member.cause.traits.self_consistent:
                 terms.append((term, found.fit.values[found.columns_of(index)]))
-        operating_point = replace(operating_point, joined=(*operating_point.joined, *terms))
+        operating_point = operating_point.joined_by(terms)
     return operating_point

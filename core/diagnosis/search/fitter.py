@@ -15,7 +15,7 @@ import numpy as np
 
 from ...arrays import Indices, JointSeries
 from ...dynamics.prediction import Prediction
-from ...dynamics.term import LinearisedTerm
+from ...dynamics.term import is_linearised
 from ...estimate.gaussian_prior import GaussianPrior
 from ...regressor.columns import ColumnPlan
 from ...simulation.inverse import inverse_dynamics
@@ -138,7 +138,7 @@ class HypothesisFitter:
         new = [each for each in candidates if each.column_key not in known]
         terms = [each.term(self.dataset, at.operating_point) for each in new]
         for candidate, term, columns in zip(new, terms, self.dataset.columns(terms), strict=True):
-            known.maps[isinstance(term, LinearisedTerm)][candidate.column_key] = columns
+            known.maps[is_linearised(term)][candidate.column_key] = columns
         return [known[each.column_key] for each in candidates]
 
     def _without_lasting_causes(self, found: Hypothesis) -> Dataset:
@@ -263,7 +263,7 @@ class HypothesisFitter:
 
     @property
     def _base_columns(self) -> int:
-        return int(self.rows.fitted[0].columns.shape[1])
+        return self.rows.fitted[0].size
 
     def _hypothesis(
         self, members: tuple[Candidate, ...], columns: Sequence[Columns], found: Fit

@@ -50,7 +50,7 @@ def _ratio_on(
     squares = np.zeros(2)
     for parts, joint in zip(zip(*rows, strict=True), trial.fit.joints, strict=True):
         fits = zip(parts, (now.fit, trial.fit), strict=True)
-        left = [part.torque - part.columns @ fit.values for part, fit in fits]
+        left = [part.left(fit.values) for part, fit in fits]
         squares += np.sum(prewhitened_residual(parts[0], joint.noise, np.column_stack(left)) ** 2, axis=0)
     if fitter.prior:
         squares += [share * fitter.prior.departure(under.fit.values) for under in (now, trial)]

@@ -34,7 +34,7 @@ def stiction_share(fitter: HypothesisFitter, under: Hypothesis) -> JointVector:
     shares = []
     for part in append_columns(fitter.rows.everywhere, fitter.columns(under.members)):
         count, taken = len(part.torque), part.nuisance.count
-        whole = part.torque - part.columns @ under.fit.values
+        whole = part.left(under.fit.values)
         left = part.residual(under.fit.values)
         ratio = float(left @ left) / max(float(whole @ whole), 1e-300)
         moves = taken < VERDICT.at_rest * count

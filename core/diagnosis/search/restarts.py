@@ -29,13 +29,15 @@ def restart_from_common_cause(found: SearchState) -> SearchState:
 
 
 def _restarts(found: SearchState) -> Iterator[SearchState]:
-    """Give the ends of restarts that do not come to a set of causes which the search came through."""
+    """Give the ends of restarts that come to no set of causes that the search or one before came through."""
+    known = found.through
     for cause in _common_causes(found):
         start = _start_from(found, cause, {*masks(cause), *excludes(cause)})
         if start is not None:
-            other = continue_search(start, known=found.through)
-            if other.chosen is start.chosen or other.keys not in found.through:
+            other = continue_search(start, known=known)
+            if other.chosen is start.chosen or other.keys not in known:
                 yield other
+            known |= other.through
 
 
 def _common_causes(found: SearchState) -> Iterator[str]:

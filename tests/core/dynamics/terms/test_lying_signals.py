@@ -95,7 +95,7 @@ def test_the_columns_of_an_encoder_do_not_depend_on_where_the_log_begins():
 def test_a_channel_scales_and_delays_what_joined_the_model_like_the_model_itself():
     alone, state = one_viscous_joint(), sine(20.0)
     robot = alone.model.robot
-    joined = replace(alone, joined=((Viscous(), np.array([3.0])),))
+    joined = alone.joined_by([(Viscous(), np.array([3.0]))])
     heavy = replace(alone, standard=4.0 * alone.standard)
     for made in (
         lambda one: Delay(0, one, 0.02),
@@ -109,7 +109,7 @@ def test_a_channel_scales_and_delays_what_joined_the_model_like_the_model_itself
 def test_what_is_late_is_the_torque_as_its_channel_scales_it():
     alone, state = one_viscous_joint(), sine(20.0)
     robot = alone.model.robot
-    scaled = replace(alone, joined=((TorqueGain(1, alone), np.array([0.5])),))
+    scaled = alone.joined_by([(TorqueGain(1, alone), np.array([0.5]))])
     heavy = replace(alone, standard=1.5 * alone.standard)
     (ours,), (expected,) = (Delay(0, one, 0.02).torques(robot, state) for one in (scaled, heavy))
     np.testing.assert_allclose(ours, expected, rtol=1e-12)
