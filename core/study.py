@@ -39,6 +39,7 @@ from .identification.result import Identification
 from .log.columns.assignment import assigned
 from .log.model import JointLog
 from .numerics.mapping import SERIAL, Mapper
+from .numerics.threads import on_one_thread
 from .reduction.base import base_model
 from .regressor.observe import Observation
 from .report.traces.writing import write_traces
@@ -107,6 +108,7 @@ def identify_with_conflicts(
     return _identify(_Task(request, parse_options(request.options)), progress or _no_progress)
 
 
+@on_one_thread()
 def _identify(task: _Task, tell: Progress) -> tuple[Identification, Conflicts]:
     settled = _settle(task, tell)
     asked = settled.task.asked
@@ -196,6 +198,7 @@ def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None)
     return _diagnose(_Task(request, parse_diagnose_options(request.options)), progress or _no_progress)[0]
 
 
+@on_one_thread()
 def _diagnose(task: _Task, tell: Progress) -> tuple[Extension, Conflicts]:
     reference = _read_reference(task)
     first = _scale_progress(tell, 0.0, 0.3)

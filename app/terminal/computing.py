@@ -3,6 +3,8 @@
 import os
 from pathlib import Path
 
+from ...core.numerics.threads import VARIABLES
+
 COMPILING = "about 20 s"
 """Of processor time, measured with nothing compiled yet; more by the clock where a machine is busy."""
 BESIDE_THE_CODE = Path(__file__).parents[2] / "core" / "regressor" / "__pycache__"
@@ -33,6 +35,6 @@ def limit_threads(cpus: int) -> None:
     and add numbers in an order that depends on their count. Arrow shall not reserve memory that it does not
     use, because what a computation may use is counted. It has to stand before numpy is loaded.
     """
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    for name in VARIABLES:
         os.environ.setdefault(name, str(cpus))
     os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")

@@ -4,6 +4,9 @@ from ..diagnosis.causes.protocol import Quantity, Site
 from ..diagnosis.causes.registry import BY_ID
 from ..diagnosis.result import Alternative, Finding, Gain, NotIdentifiable
 
+ROUNDING = 1e-9
+"""Share of its deviation below which a value is zero but for rounding."""
+
 
 def finding_row(finding: Finding) -> dict[str, object]:
     """Write one finding."""
@@ -48,14 +51,14 @@ def title_of(cause: str) -> str:
 
 
 def percent_of(deviation: float, value: float) -> float | None:
-    """Give a standard deviation in percent of a value; None where the value is zero.
+    """Give a standard deviation in percent of a value; None where the value is zero but for rounding.
 
     Examples
     --------
-    >>> percent_of(0.5, -10.0), percent_of(0.5, 0.0)
-    (5.0, None)
+    >>> percent_of(0.5, -10.0), percent_of(0.5, 0.0), percent_of(0.5, 1e-17)
+    (5.0, None, None)
     """
-    return 100.0 * deviation / abs(value) if value else None
+    return 100.0 * deviation / abs(value) if abs(value) > ROUNDING * deviation else None
 
 
 def _concerns(alternative: Alternative, finding: Finding) -> bool:
