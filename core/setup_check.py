@@ -31,7 +31,7 @@ def check_setup(request: IdentifyRequest, progress: Progress | None = None) -> d
         Whatever stands in the way, with cause, evidence and remedy.
     """
     quick = replace(request, options={**request.options, **NOT_REDRAWN}, traces=None)
-    found, conflicts = identify_with_conflicts(quick, progress)
+    found, conflicts = identify_with_conflicts(quick, progress, doubted=True)
     document = check_document(
         found,
         conflicts,

@@ -102,15 +102,22 @@ def identify_in_full(request: IdentifyRequest, progress: Progress | None = None)
 
 
 def identify_with_conflicts(
-    request: IdentifyRequest, progress: Progress | None = None
+    request: IdentifyRequest, progress: Progress | None = None, *, doubted: bool = False
 ) -> tuple[Identification, Conflicts]:
-    """Identify a robot and give every chapter's result, and what was found to disagree."""
-    return _identify(_Task(request, parse_options(request.options)), progress or _no_progress)
+    """Identify a robot and give every chapter's result, and what was found to disagree.
+
+    Parameters
+    ----------
+    doubted
+        Whether to look for conflicts even where nothing gives reason to.
+    """
+    task = _Task(request, parse_options(request.options))
+    return _identify(task, progress or _no_progress, doubted=doubted)
 
 
 @on_one_thread()
-def _identify(task: _Task, tell: Progress) -> tuple[Identification, Conflicts]:
-    settled = _settle(task, tell)
+def _identify(task: _Task, tell: Progress, *, doubted: bool = False) -> tuple[Identification, Conflicts]:
+    settled = _settle(task, tell, doubted=doubted)
     asked = settled.task.asked
     return judge(asked.logs, task.options, settled.fit, tell, asked.mapper), settled.conflicts
 
@@ -124,15 +131,24 @@ class _Settled:
     conflicts: Conflicts
 
 
-def _settle(task: _Task, tell: Progress, reference: Reference | None = None) -> _Settled:
-    """Fit once, correct what robot and logs disagree in, and fit again where there is any such thing.
+def _settle(
+    task: _Task, tell: Progress, reference: Reference | None = None, *, doubted: bool = False
+) -> _Settled:
+    """Fit once, correct what robot and logs disagree in, and fit again where there is any such thing."""
+    first = fit(_prepare(task, tell, reference), task.options, tell)
+    return _check(task, first, tell, reference, doubted=doubted)
+
+
+def _check(
+    task: _Task, first: Fit, tell: Progress, reference: Reference | None = None, *, doubted: bool
+) -> _Settled:
+    """Look for what robot and logs disagree in, correct it, and fit again.
 
     Against a reference nothing is corrected: the reference is of the robot as it is described.
     """
     asked, options = task.asked, task.options
-    first = fit(_prepare(task, tell, reference), options, tell)
     tell("check", 0.62)
-    conflicts = check(first, asked.logs, options.terms)
+    conflicts = check(first, asked.logs, options.terms, doubted=doubted)
     setup = conflicts.setup
     if setup is None or reference is not None or options.conflicts == REPORT:
         return _Settled(task, first, conflicts)
@@ -205,21 +221,36 @@ def _diagnose(task: _Task, tell: Progress) -> tuple[Extension, Conflicts]:
     settled = _settle(task, first, reference)
     if task.options.reference == PRIOR:
         reference = reference_from_prior(settled.fit.problem.base)
-    return _explain(settled, reference, tell), settled.conflicts
+    before, found = _judge_and_search(settled, reference, first, _scale_progress(tell, 0.3, 0.5))
+    if found.verdict != "nothing_found" and not settled.conflicts.searched and reference is None:
+        # What a wrong set-up leaves, as little as it may be on an arm of two joints, resembles a cause.
+        still = _scale_progress(tell, 0.8, 0.0)
+        settled = _check(task, settled.fit, still, doubted=True)
+        if settled.conflicts.applied:
+            before, found = _judge_and_search(settled, reference, still, still)
+    return _explain(settled, before, found, reference, tell), settled.conflicts
 
 
-def _explain(settled: _Settled, reference: Reference | None, tell: Progress) -> Extension:
-    """Find the causes of what a fit leaves, and extend the model by them."""
-    task, problem, options = settled.task, settled.fit.problem, settled.task.options
-    first, last = _scale_progress(tell, 0.0, 0.3), _scale_progress(tell, 0.8, 0.15)
-    before = judge(task.asked.logs, options, settled.fit, first, task.asked.mapper)
+def _judge_and_search(
+    settled: _Settled, reference: Reference | None, first: Progress, then: Progress
+) -> tuple[Identification, Diagnosis]:
+    """Judge a fit, and find the causes of what it leaves."""
+    asked, options, problem = settled.task.asked, settled.task.options, settled.fit.problem
+    before = judge(asked.logs, options, settled.fit, first, asked.mapper)
     question = DiagnosisProblem(
-        problem.plan, task.asked.logs, problem.held_out, options.validation.blocks, reference
+        problem.plan, asked.logs, problem.held_out, options.validation.blocks, reference
     )
+    return before, find_causes(question, then)
+
+
+def _explain(
+    settled: _Settled, before: Identification, found: Diagnosis, reference: Reference | None, tell: Progress
+) -> Extension:
+    """Extend the model by the causes that were found, and measure what that gains."""
+    task, problem, options = settled.task, settled.fit.problem, settled.task.options
+    last = _scale_progress(tell, 0.8, 0.15)
     found = with_reservations(
-        find_causes(question, _scale_progress(tell, 0.3, 0.5)),
-        open_conflict=settled.conflicts.is_open,
-        doubted=bool(contradictions(before)),
+        found, open_conflict=settled.conflicts.is_open, doubted=bool(contradictions(before))
     )
     plain = problem if reference is None else replace(problem, prior=reference.prior)
     found, proof = _verify(found, options, plain, tell)

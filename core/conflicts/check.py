@@ -24,6 +24,8 @@ class Conflicts:
     """Per log, the factor by which its stamps' steps are too long; None where nothing contradicts them."""
     applied: bool = False
     """Whether the corrections were applied before anything else was computed."""
+    searched: bool = True
+    """Whether anything was in doubt, so that corrections were searched."""
 
     @property
     def is_open(self) -> bool:
@@ -36,11 +38,16 @@ class Conflicts:
         return self.found[-1].hypothesis.setup if self.found else None
 
 
-def check(fit: Fit, logs: tuple[JointLog, ...], terms: tuple[str, ...] | None) -> Conflicts:
-    """Look for conflicts where a plain fit or a log's numbers are in doubt; stamps are always compared."""
+def check(
+    fit: Fit, logs: tuple[JointLog, ...], terms: tuple[str, ...] | None, *, doubted: bool = False
+) -> Conflicts:
+    """Look for conflicts where something is in doubt: a plain fit, a log's numbers, or what a caller says.
+
+    Stamps are always compared.
+    """
     factors = tuple(stamp_factor(log) for log in logs)
-    if not is_doubtful(fit) and not any(map(has_doubtful_unit, logs)):
-        return Conflicts((), factors)
+    if not (doubted or is_doubtful(fit) or any(map(has_doubtful_unit, logs))):
+        return Conflicts((), factors, searched=False)
     problem = fit.problem
     trials = Trials(sampled(problem.motions, problem.held_out), terms)
     described = Setup.as_described(problem.base.model.robot)

@@ -20,10 +20,11 @@ def has_doubtful_unit(log: JointLog) -> bool:
 
 
 def _unexplained(fit: Fit) -> bool:
-    observation = fit.observation
-    factors = observation.joint_factors(observation.parts(fit.problem.held_out)[0])
-    limit = DOUBT.unexplained**2
+    """Tell whether much is left of a joint's torque, on fitted or on held-out blocks."""
+    observation, limit = fit.observation, DOUBT.unexplained**2
     return any(
         factor.residual_square(fit.estimate.base[columns]) > limit * factor.torque_square
-        for factor, columns in zip(factors, observation.columns_of, strict=True)
+        for blocks in observation.parts(fit.problem.held_out)
+        if blocks
+        for factor, columns in zip(observation.joint_factors(blocks), observation.columns_of, strict=True)
     )

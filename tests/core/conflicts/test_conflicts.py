@@ -25,6 +25,7 @@ from veritorque.core.log.model import whole_rows
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.writing import to_description
+from veritorque.core.setup_check import check_setup
 from veritorque.core.signals.recipe import FilterOptions
 from veritorque.core.signals.several import condition_all
 from veritorque.core.study import IdentifyRequest, diagnose, identify, identify_in_full
@@ -258,6 +259,29 @@ def test_a_conflict_that_is_only_reported_stays_open_and_no_cause_is_claimed(arm
     assert document["doubts"][0].startswith("Robot and log disagree")
     assert document["diagnosis"]["verdict"] != "nothing_found"
     assert all(one["confidence"] <= 0.5 for one in document["diagnosis"]["findings"])
+
+
+@pytest.fixture(scope="module")
+def exchanged():
+    """Give a planar arm with exchanged joints: other bodies explain all but 5 % of both torques."""
+    case = draw_clean(1020, noise="white", robot="planar-2", duration=15.0)
+    spoilt = SPOILERS["channels_swapped"](case.believed, case.log, np.random.default_rng(16))
+    return IdentifyRequest(spoilt.robot, (spoilt.log,), PLAIN)
+
+
+def test_a_diagnosis_doubts_the_set_up_before_it_names_a_cause(exchanged):
+    document = diagnose(exchanged)
+    (found,) = document["conflicts"]
+    assert found["statement"] == "the channels of joints 1 and 2 are exchanged"
+    assert found["applied"]
+    assert document["diagnosis"]["verdict"] == "nothing_found"
+    assert document["diagnosis"]["findings"] == []
+
+
+def test_whoever_asks_for_a_check_doubts_the_set_up(exchanged):
+    (found,) = check_setup(exchanged)["conflicts"]
+    assert found["statement"] == "the channels of joints 1 and 2 are exchanged"
+    assert identify(exchanged)["conflicts"] == []  # its fit gives no reason to ask
 
 
 def test_a_log_that_its_model_explains_is_not_examined(arm, monkeypatch):
