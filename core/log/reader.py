@@ -21,14 +21,14 @@ from .columns.profiles import fill_in
 from .columns.suggestion import explained, suggest_mappings
 from .defects.examine import examine
 from .formats.combine import combine_stamps, split_lists
-from .formats.content import BAG, DELIMITED, MATLAB5, MATLAB7, MCAP, NPZ, PARQUET, Form, recognise
+from .formats.content import BAG, DELIMITED, MATLAB5, MATLAB7, MCAP, NPZ, PARQUET, SQLITE_BAG, Form, recognise
 from .formats.delimited import open_delimited
 from .formats.long import widen
 from .formats.matlab5 import open_matlab5
 from .formats.matlab7 import open_matlab7
 from .formats.npz import open_npz
 from .formats.parquet import ParquetSource, ParquetTable, open_parquet
-from .formats.recording import open_bag, open_mcap
+from .formats.recording import open_bag, open_mcap, open_sqlite_bag
 from .formats.table import Table
 from .model import ArraySource, Defect, JointLog, LogRows, LogSource
 from .pieces.choose import choose_rows
@@ -42,6 +42,7 @@ OPENERS: dict[Form, Callable[[Path], Table]] = {
     MATLAB5: open_matlab5,
     MATLAB7: open_matlab7,
     MCAP: open_mcap,
+    SQLITE_BAG: open_sqlite_bag,
     BAG: open_bag,
 }
 
@@ -59,7 +60,7 @@ def read_log(
     Parameters
     ----------
     path
-        The file: CSV, Parquet, NPZ, MATLAB v5 or v7.3, MCAP or ROS bag; its bytes decide which.
+        The file: CSV, Parquet, NPZ, MATLAB v5 or v7.3, MCAP or ROS bag (1 or 2); its bytes decide which.
     media_type
         The declared content type, checked against the bytes.
     mapping

@@ -8,7 +8,7 @@ import { mappingForm } from "./mapping.js";
 import { showError } from "./problem.js";
 import { bytes, count, duration, number, percent, plain, plural } from "./words.js";
 
-const ACCEPT = ".csv,.tsv,.txt,.dat,.parquet,.pq,.npz,.mat,.h5,.hdf5,.mcap,.bag";
+const ACCEPT = ".csv,.tsv,.txt,.dat,.parquet,.pq,.npz,.mat,.h5,.hdf5,.mcap,.db3,.bag";
 const LISTED = 50;
 const LONGEST_NAME = 200; // that the service keeps
 
@@ -29,7 +29,7 @@ export function chooseLogs(container, { wanted = [], chosen }) {
     element(
       "div",
       { class: "split even" },
-      dropZone("Drop a log here", "or choose a file: CSV, Parquet, MATLAB, NPZ, MCAP or ROS bag", ACCEPT, (file) =>
+      dropZone("Drop a log here", "or choose a file: CSV, Parquet, MATLAB, NPZ, MCAP or ROS bag (1 or 2)", ACCEPT, (file) =>
         take(file, null),
       ),
       earlier,

@@ -40,8 +40,9 @@ MATLAB7 = Form(
     (".mat", ".h5", ".hdf5"),
 )
 MCAP = Form("MCAP", ("application/x-mcap", "application/mcap"), (".mcap",))
+SQLITE_BAG = Form("ROS 2 bag (SQLite)", ("application/vnd.sqlite3", "application/x-sqlite3"), (".db3",))
 BAG = Form("ROS bag", ("application/x-rosbag",), (".bag",))
-FORMS = (DELIMITED, PARQUET, NPZ, MATLAB5, MATLAB7, MCAP, BAG)
+FORMS = (DELIMITED, PARQUET, NPZ, MATLAB5, MATLAB7, MCAP, SQLITE_BAG, BAG)
 
 _BEGINNINGS: tuple[tuple[bytes, Form], ...] = (
     (b"PAR1", PARQUET),
@@ -49,6 +50,7 @@ _BEGINNINGS: tuple[tuple[bytes, Form], ...] = (
     (b"MATLAB 7.3", MATLAB7),
     (HDF5_SIGNATURE, MATLAB7),
     (b"\x89MCAP0\r\n", MCAP),
+    (b"SQLite format 3\x00", SQLITE_BAG),
     (b"#ROSBAG V2.0\n", BAG),
 )
 _FOREIGN: tuple[tuple[bytes, str, str], ...] = (
@@ -58,11 +60,6 @@ _FOREIGN: tuple[tuple[bytes, str, str], ...] = (
     (b"7z\xbc\xaf\x27\x1c", "a 7z archive", "unpack it first"),
     (b"\x28\xb5\x2f\xfd", "a Zstandard archive", "unpack it first"),
     (b"ARROW1", "an Arrow (Feather) file", "save the table as Parquet"),
-    (
-        b"SQLite format 3\x00",
-        "an SQLite database",
-        "convert a ROS 2 bag to MCAP (ros2 bag convert), or export its joint states as CSV or Parquet",
-    ),
     (b"\xd0\xcf\x11\xe0", "an old Excel workbook", "save the sheet as CSV"),
     (b"\x93NUMPY", "a single NPY array", "save the named arrays together as NPZ"),
     (b"%PDF", "a PDF document", "upload the measured data"),

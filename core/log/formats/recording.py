@@ -1,4 +1,4 @@
-"""Read the joint states of ROS recordings: MCAP files of ROS 2 and bags of ROS 1.
+"""Read the joint states of ROS recordings: MCAP files and SQLite bags of ROS 2, and bags of ROS 1.
 
 Only messages of the type sensor_msgs/JointState are decoded, by the definition that is built in: one that a
 recording brings along would have to be compiled. Joints keep their names, because their order in a message
@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 
 from ...errors import LogError
+from .sqlite_bag import sqlite_bag
 from .table import MemoryTable, check_columns, check_density, check_values, reading
 
-MCAP_FORM, BAG_FORM = "MCAP", "ROS bag"
+MCAP_FORM, SQLITE_FORM, BAG_FORM = "MCAP", "SQLite", "ROS bag"
 JOINT_STATE = "sensor_msgs/msg/JointState"
 NANOSECONDS = 1_000_000_000
 FIELDS = ("position", "velocity", "effort")
@@ -51,6 +52,20 @@ def open_mcap(path: Path) -> MemoryTable:
             return _table(_decode(reader.messages(topic), ros1=False))
         finally:
             reader.close()
+
+
+def open_sqlite_bag(path: Path) -> MemoryTable:
+    """Read the joint states of a bag of ROS 2 in SQLite.
+
+    Raises
+    ------
+    LogError
+        If the file is damaged or too large, is no bag, or holds no joint states or several topics of them.
+    """
+    _require_library()
+    with reading(SQLITE_FORM, path), sqlite_bag(path) as bag:
+        topic = _joint_states(bag.connections)
+        return _table(_decode(bag.messages(topic), ros1=False))
 
 
 def open_bag(path: Path) -> MemoryTable:
