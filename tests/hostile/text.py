@@ -78,7 +78,7 @@ def a_second_line_without_end(_place):
 
 @hostile(FORM)
 def a_quotation_that_never_ends(_place):
-    return table(first='0,"1' + "\n" * 100)
+    return table(first='0,"1' + "\n" * 100, most=True)
 
 
 @hostile(FORM)

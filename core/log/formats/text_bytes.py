@@ -1,4 +1,4 @@
-"""Look at the bytes of a text table before its rows are parsed: first lines, encoding, last line."""
+"""Look at the bytes of a text table before its rows are parsed: first lines and encoding."""
 
 import codecs
 import re
@@ -7,12 +7,11 @@ from itertools import islice
 from pathlib import Path
 
 from ...errors import LogError
-from .text_header import BLANKS, DELIMITERS, TextHeader, is_comment, is_number, split_cells
+from .text_header import DELIMITERS, is_comment
 
 HEAD_BYTES = 1 << 20
 MOST_HEAD_BYTES = 64 << 20
 """Where the header has to have come, whatever stands before it."""
-LAST_BYTES = 1 << 16
 MAX_COMMENTS = 100_000
 
 
@@ -112,15 +111,3 @@ def _not_utf8(begin: int, error: UnicodeDecodeError) -> LogError:
         evidence={"byte": begin + error.start, "value": error.object[error.start]},
         remedy="save the file as UTF-8",
     )
-
-
-def cut_line(path: Path, found: TextHeader) -> bytes:
-    """Give the last line if it is shorter than a row; empty where it is whole."""
-    with path.open("rb") as stream:
-        stream.seek(-min(path.stat().st_size, LAST_BYTES), 2)
-        last = stream.read().rstrip(b"\r\n").splitlines()[-1:]
-    text = last[0].decode("utf-8", "replace") if last else ""
-    cells = split_cells(text, found.delimiter)
-    if is_comment(text) or len(cells) >= found.width or not is_number(cells[0]):
-        return b""
-    return b"\t".join(last[0].split()) if found.delimiter == BLANKS else last[0]
