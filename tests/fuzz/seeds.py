@@ -72,7 +72,7 @@ def recording(write: Callable[..., Path]) -> bytes:
 def seeds() -> dict[str, tuple[bytes, ...]]:
     """Give the sound files by format."""
     return {
-        "CSV": (csv(","), csv(";"), csv("\t")),
+        "CSV": (csv(","), csv(";"), csv("\t"), csv("\t").decode().encode("utf-16")),
         "NPZ": (npz(packed=False), npz(packed=True)),
         "Parquet": (
             parquet(),

@@ -8,6 +8,7 @@ import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from io import BufferedReader
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +21,7 @@ from .arrow import numbers, words_for_nothing
 from .odd_rows import OddRows, find_odd_rows
 from .stamps import Clock
 from .table import BY_NUMBER, MAX_COLUMNS, check_columns, check_rows, check_values, not_numeric, reading
-from .text_bytes import UTF_8, WESTERN, check_text, encoding_of, opening_lines
+from .text_bytes import UTF_8, UTF_16, WESTERN, check_text, encoding_of, open_utf8, opening_lines
 from .text_header import (
     BLANKS,
     DELIMITERS,
@@ -35,6 +36,11 @@ from .tidy_lines import TidyLines
 
 FORM = "CSV"
 BLOCK_BYTES = 1 << 22
+ENCODING_NOTES = {
+    UTF_8: (),
+    UTF_16: ("the text read as UTF-16",),
+    WESTERN: ("the text is not UTF-8, and read as Windows-1252",),
+}
 _BAD_CELL = re.compile(r"column #(?P<column>\d+).*?invalid value '(?P<found>[^']*)'", re.DOTALL)
 
 
@@ -95,25 +101,21 @@ class DelimitedTable:
             null_values=words_for_nothing(),
         )
         read = arrow_csv.ReadOptions(
-            column_names=list(self.names),
-            skip_rows=self.skip,
-            block_size=BLOCK_BYTES,
-            use_threads=False,
-            encoding=self.encoding,
+            column_names=list(self.names), skip_rows=self.skip, block_size=BLOCK_BYTES, use_threads=False
         )
         delimiter = "\t" if self.delimiter == BLANKS else self.delimiter
         parse = arrow_csv.ParseOptions(delimiter=delimiter, invalid_row_handler=_pass_over_comment)
-        with reading(FORM, self.path), self._naming_columns():
-            if self.delimiter == BLANKS or self.repeated or self.odd != OddRows():
-                with self._tidy_lines(delimiter) as lines:
-                    yield from arrow_csv.open_csv(lines, read, parse, convert)
-            else:
-                yield from arrow_csv.open_csv(self.path, read, parse, convert)
+        with reading(FORM, self.path), self._naming_columns(), self._rows(delimiter) as rows:
+            yield from arrow_csv.open_csv(rows, read, parse, convert)
 
-    def _tidy_lines(self, delimiter: str) -> TidyLines:
+    def _rows(self, delimiter: str) -> BufferedReader | TidyLines:
+        """Open the text as the parser wants it."""
+        file = open_utf8(self.path, self.encoding)
+        if self.delimiter != BLANKS and not self.repeated and self.odd == OddRows():
+            return file
         nothing = delimiter.encode() * (len(self.names) - 1) + b"\n"
         return TidyLines(
-            self.path,
+            file,
             blanks=self.delimiter == BLANKS,
             without=self.repeated,
             instead=dict.fromkeys(self.odd.blank, nothing) | {self.odd.cut: b""},
@@ -158,7 +160,7 @@ def open_delimited(path: Path) -> DelimitedTable:
     repeated -= found.header_at > 0
     cells = dict(zip(names, split_cells(row, found.delimiter), strict=False))
     stamps = tuple(name for name, cell in cells.items() if STAMP.fullmatch(cell))
-    odd = find_odd_rows(path, found)
+    odd = find_odd_rows(path, encoding, found)
     return DelimitedTable(
         path=path,
         names=names,
@@ -168,9 +170,9 @@ def open_delimited(path: Path) -> DelimitedTable:
         stamps=stamps,
         texts=_texts(cells, stamps),
         units=_units(names, found),
-        notes=(*_encoding_notes(encoding), *_notes(found, stamps, repeated), *odd.notes()),
+        notes=(*ENCODING_NOTES[encoding], *_notes(found, stamps, repeated), *odd.notes()),
         odd=odd,
-        repeated=lines[found.header_at].strip().encode(encoding) if repeated else b"",
+        repeated=lines[found.header_at].strip().encode() if repeated else b"",
         encoding=encoding,
     )
 
@@ -194,10 +196,6 @@ def _units(names: Sequence[str], found: TextHeader) -> dict[str, str]:
     """Give the units that a line of units or the names themselves state."""
     cells = zip(names, found.cells, strict=False)
     return {name: found.units[cell] for name, cell in cells if cell in found.units}
-
-
-def _encoding_notes(encoding: str) -> list[str]:
-    return ["the text is not UTF-8, and read as Windows-1252"] if encoding == WESTERN else []
 
 
 def _first_line(lines: Sequence[str]) -> TextHeader:

@@ -12,6 +12,7 @@ from pathlib import Path
 from ...errors import LogError
 from ..defects.stretch import count_text
 from .arrow import words_for_nothing
+from .text_bytes import open_utf8
 from .text_header import BLANKS, TextHeader, is_number, split_cells
 
 BLOCK_BYTES = 1 << 20
@@ -45,7 +46,7 @@ class OddRows:
             yield f"the last row, cut short, left out (line {self.cut})"
 
 
-def find_odd_rows(path: Path, found: TextHeader) -> OddRows:
+def find_odd_rows(path: Path, encoding: str, found: TextHeader) -> OddRows:
     """Find the rows that do not have a cell for every column.
 
     Raises
@@ -55,7 +56,7 @@ def find_odd_rows(path: Path, found: TextHeader) -> OddRows:
     """
     seen = _Rows(found)
     enough = MOST_ODD * path.stat().st_size / found.width  # a cell takes a byte at least
-    for lines in _blocks(path):
+    for lines in _blocks(path, encoding):
         seen.take(lines)
         if len(seen.odd) > enough:
             break
@@ -66,10 +67,10 @@ def find_odd_rows(path: Path, found: TextHeader) -> OddRows:
     return OddRows(blank, cut)
 
 
-def _blocks(path: Path) -> Iterator[list[bytes]]:
+def _blocks(path: Path, encoding: str) -> Iterator[list[bytes]]:
     """Give the lines of a file, some thousand at a time."""
     rest = b""
-    with path.open("rb") as stream:
+    with open_utf8(path, encoding) as stream:
         while block := stream.read(BLOCK_BYTES):
             *lines, rest = (rest + block).splitlines(keepends=True)  # the last may go on
             yield lines

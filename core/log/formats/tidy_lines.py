@@ -3,7 +3,7 @@
 import io
 import re
 from collections.abc import Mapping
-from pathlib import Path
+from io import BufferedReader
 
 BLOCK_BYTES = 1 << 20
 _BLANKS = re.compile(rb"[ \t]+")
@@ -11,7 +11,7 @@ _EDGES = re.compile(rb"^\t|\t(?=\r?$)", re.MULTILINE)
 
 
 class TidyLines(io.RawIOBase):
-    """Read a file line by line, as the parser of tables wants its lines.
+    """Read a file of UTF-8 line by line, as the parser of tables wants its lines.
 
     Parameters
     ----------
@@ -26,10 +26,10 @@ class TidyLines(io.RawIOBase):
     """
 
     def __init__(
-        self, path: Path, *, blanks: bool, without: bytes, instead: Mapping[int, bytes], skip: int
+        self, file: BufferedReader, *, blanks: bool, without: bytes, instead: Mapping[int, bytes], skip: int
     ) -> None:
         super().__init__()
-        self._file = path.open("rb")
+        self._file = file
         self._blanks = blanks
         self._without = without
         self._instead = instead

@@ -237,3 +237,59 @@ def test_the_code_page_of_windows_is_read_with_its_degrees_and_umlauts(repeated,
     log = read_log(path, mapping=seen.suggestion)
     np.testing.assert_allclose(np.degrees(whole_rows(log).position[:, 0]), columns["q_1"], atol=1e-7)
     assert "read as Windows-1252" in log.defects[0].statement
+
+
+@pytest.mark.parametrize("order", ["utf-16-le", "utf-16-be"])
+@pytest.mark.parametrize("kind", FILES)
+def test_text_in_utf_16_with_its_mark_is_read_as_in_utf_8(kind, order, tmp_path):
+    text = "\r\n".join(["Prüfstand №3", "", *FILES[kind]])
+    (tmp_path / "utf8.txt").write_bytes(text.encode())
+    (tmp_path / "utf16.txt").write_bytes(("\ufeff" + text).encode(order))
+    expected, log = read_log(tmp_path / "utf8.txt"), read_log(tmp_path / "utf16.txt")
+    for own, other in zip(
+        whole_rows(log).channels().values(), whole_rows(expected).channels().values(), strict=True
+    ):
+        np.testing.assert_array_equal(own, other)
+    said = log.defects[0].statement
+    assert said.replace("the text read as UTF-16; ", "") == expected.defects[0].statement != said
+
+
+@pytest.mark.parametrize("bytes_more", range(4))
+def test_text_in_utf_16_that_ends_within_a_character_loses_no_row_before(bytes_more, tmp_path):
+    whole = ("\ufeff" + "\n".join([*lines(), "12.0"])).encode("utf-16-le")
+    path = tmp_path / "log.csv"
+    path.write_bytes(whole[: len(whole) - bytes_more])
+    assert read_log(path).samples == len(ROWS)
+
+
+@pytest.mark.parametrize(
+    ("encoding", "cause"),
+    [
+        ("utf-16-le", r"UTF-16 text \(lower byte first\) without a byte order mark"),
+        ("utf-16-be", r"UTF-16 text \(upper byte first\) without a byte order mark"),
+        ("utf-32", "UTF-32 text"),
+        ("utf-32-le", "NUL bytes"),
+    ],
+)
+def test_text_in_an_encoding_that_is_not_read_is_refused_with_its_name(encoding, cause, tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_bytes("\n".join(["Prüfstand 3", *lines()]).encode(encoding))
+    with pytest.raises(LogError, match=cause) as refusal:
+        read_log(path)
+    assert "UTF-8" in refusal.value.remedy or encoding == "utf-32-le"
+
+
+def test_halves_of_characters_deep_in_utf_16_are_refused_by_their_place(tmp_path):
+    whole = ("\ufeff" + "\n".join(lines())).encode("utf-16-le")
+    path = tmp_path / "log.csv"
+    path.write_bytes(whole[:60_000] + b"\x00\xd8" + whole[60_000:])
+    with pytest.raises(LogError, match="not UTF-16") as refusal:
+        read_log(path)
+    assert refusal.value.evidence["byte"] == 60_000
+
+
+@pytest.mark.parametrize(("text", "what"), [("{}", "JSON"), ("<a/>", "XML"), ("a,\0", "NUL")])
+def test_what_is_no_table_in_utf_8_is_none_in_utf_16(text, what, tmp_path):
+    (tmp_path / "upload").write_bytes((text * 20).encode("utf-16"))
+    with pytest.raises(LogError, match=what):
+        read_log(tmp_path / "upload")
