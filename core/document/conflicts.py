@@ -11,7 +11,7 @@ from ..conflicts.path import FoundConflict
 from ..conflicts.setup import Setup
 from ..log.columns.assignment import assigned, mapping_of
 from ..log.model import JointLog
-from ..robot.joint_units import prismatic_joints
+from ..robot.joint_units import prismatic_numbers
 from ..robot.model import RobotModel
 from ..robot.writing import to_description
 from .numbers import plain
@@ -95,7 +95,7 @@ def _correction(conflicts: Conflicts, robot: RobotModel, logs: tuple[JointLog, .
     """Give the mapping with which the logs are to be read, and the fields of the description to replace."""
     setup = conflicts.setup
     read = logs if setup is None else tuple(assigned(log, setup.assignment) for log in logs)
-    written = partial(mapping_of, prismatic=(np.flatnonzero(prismatic_joints(robot)) + 1).tolist())
+    written = partial(mapping_of, prismatic=prismatic_numbers(robot))
     mappings = [
         written(log) | _clock(factor, log) for log, factor in zip(read, conflicts.stamp_factors, strict=True)
     ]

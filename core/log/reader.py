@@ -54,6 +54,7 @@ def read_log(
     mapping: Mapping[str, object] | None = None,
     name: str | None = None,
     sha256: str = "",
+    prismatic: Collection[int] | None = None,
 ) -> JointLog:
     """Read a log and find its defects.
 
@@ -69,6 +70,9 @@ def read_log(
         The log's name; the file's stem if None.
     sha256
         Hash of the file's bytes if it is known already; computed if empty.
+    prismatic
+        Joints of the robot, from 1, that are prismatic, for the mapping that a refusal suggests; None where
+        the robot is not known.
 
     Returns
     -------
@@ -85,16 +89,22 @@ def read_log(
     try:
         layout = bind_columns(table, mapping)
     except LogError as error:
-        raise error if mapping else _with_suggestion(error, table) from error
+        raise error if mapping else _with_suggestion(error, table, prismatic) from error
     return read_table(table, layout, name=name or path.stem, sha256=sha256 or _hash(path))
 
 
-def _with_suggestion(error: LogError, table: Table) -> LogError:
-    """Add the mapping that names and values of the columns suggest, to be confirmed."""
-    mappings = suggest_mappings(table)
+def _with_suggestion(error: LogError, table: Table, prismatic: Collection[int] | None) -> LogError:
+    """Add the mapping that names and values of the columns suggest, to be confirmed.
+
+    Where the robot is not known, the same with prismatic joints alone stands beside it.
+    """
+    mappings = suggest_mappings(table, prismatic or ())
     if not mappings:
         return explained(error, table)
     evidence = error.evidence | {"suggested_mappings": mappings}
+    if prismatic is None:
+        every = range(1, len(table.names) + 1)
+        evidence |= {"suggested_if_prismatic": suggest_mappings(table, every)}
     several = ", one for each arm" if len(mappings) > 1 else ""
     written = " or ".join(json.dumps(mapping, ensure_ascii=False) for mapping in mappings)
     return LogError(
