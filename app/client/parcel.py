@@ -22,6 +22,7 @@ LOG_TYPES: Final = {
     ".h5": "application/x-hdf5",
     ".hdf5": "application/x-hdf5",
     ".mcap": "application/x-mcap",
+    ".db3": "application/vnd.sqlite3",
     ".bag": "application/x-rosbag",
 }
 

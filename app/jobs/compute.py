@@ -5,6 +5,7 @@ from typing import cast
 
 from ...core.log.reader import read_log
 from ...core.robot.description import robot_from_description
+from ...core.robot.joint_units import prismatic_numbers
 from ..kinds.kind import Inputs, Progress
 from ..kinds.registry import kind_of
 from ..store.blobs.blob_store import check_file
@@ -25,10 +26,14 @@ def compute(computation: Computation, workspace: Workspace, progress: Progress) 
     kind, files = kind_of(computation.kind), workspace.files
     for log in computation.logs:
         check_file(files[log.sha256], log.sha256)
+    robot = robot_from_description(computation.robot)
+    prismatic = prismatic_numbers(robot)
     inputs = Inputs(
-        robot=robot_from_description(computation.robot),
+        robot=robot,
         logs=tuple(
-            read_log(files[log.sha256], mapping=log.mapping, name=log.name, sha256=log.sha256)
+            read_log(
+                files[log.sha256], mapping=log.mapping, name=log.name, sha256=log.sha256, prismatic=prismatic
+            )
             for log in computation.logs
         ),
         options=computation.options,

@@ -24,6 +24,7 @@ READERS = (
     "rosbags.rosbag2.storage_mcap",
     "rosbags.typesys",
     "scipy.io.matlab",
+    "sqlite3",
 )
 """What reads logs; what is not installed is passed over. Where pandas is installed, Arrow loads it."""
 POLL_S = 0.05

@@ -41,8 +41,8 @@ FORM_SCHEMA = {
     "required": ["file"],
     "properties": {
         "file": file_part(
-            "CSV, Parquet, NPZ, MATLAB, HDF5, MCAP or a ROS bag; columns time, q_1.., tau_1.. unless a "
-            "mapping names others"
+            "CSV, Parquet, NPZ, MATLAB, HDF5, MCAP or a ROS bag (1 or 2); columns time, q_1.., tau_1.. "
+            "unless a mapping names others"
         ),
         "mapping": text_part(
             f"JSON, as text or as a file: channel and unit of each column, e.g. {MAPPING}", default="{}"

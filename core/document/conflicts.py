@@ -1,5 +1,6 @@
 """Write the conflicts of robot and logs, each with the correction to paste."""
 
+from functools import partial
 from typing import cast
 
 import numpy as np
@@ -10,6 +11,7 @@ from ..conflicts.path import FoundConflict
 from ..conflicts.setup import Setup
 from ..log.columns.assignment import assigned, mapping_of
 from ..log.model import JointLog
+from ..robot.joint_units import prismatic_numbers
 from ..robot.model import RobotModel
 from ..robot.writing import to_description
 from .numbers import plain
@@ -93,11 +95,11 @@ def _correction(conflicts: Conflicts, robot: RobotModel, logs: tuple[JointLog, .
     """Give the mapping with which the logs are to be read, and the fields of the description to replace."""
     setup = conflicts.setup
     read = logs if setup is None else tuple(assigned(log, setup.assignment) for log in logs)
+    written = partial(mapping_of, prismatic=prismatic_numbers(robot))
     mappings = [
-        mapping_of(log) | _clock(factor, log)
-        for log, factor in zip(read, conflicts.stamp_factors, strict=True)
+        written(log) | _clock(factor, log) for log, factor in zip(read, conflicts.stamp_factors, strict=True)
     ]
-    before = list(map(mapping_of, logs))
+    before = list(map(written, logs))
     described = {} if setup is None else _described(setup, robot)
     return {"mapping": mappings[0] if mappings != before else {}, "robot": described} | (
         {"mappings": mappings} if len(logs) > 1 and mappings != before else {}

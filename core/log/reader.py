@@ -21,14 +21,14 @@ from .columns.profiles import fill_in
 from .columns.suggestion import explained, suggest_mappings
 from .defects.examine import examine
 from .formats.combine import combine_stamps, split_lists
-from .formats.content import BAG, DELIMITED, MATLAB5, MATLAB7, MCAP, NPZ, PARQUET, Form, recognise
+from .formats.content import BAG, DELIMITED, MATLAB5, MATLAB7, MCAP, NPZ, PARQUET, SQLITE_BAG, Form, recognise
 from .formats.delimited import open_delimited
 from .formats.long import widen
 from .formats.matlab5 import open_matlab5
 from .formats.matlab7 import open_matlab7
 from .formats.npz import open_npz
 from .formats.parquet import ParquetSource, ParquetTable, open_parquet
-from .formats.recording import open_bag, open_mcap
+from .formats.recording import open_bag, open_mcap, open_sqlite_bag
 from .formats.table import Table
 from .model import ArraySource, Defect, JointLog, LogRows, LogSource
 from .pieces.choose import choose_rows
@@ -42,6 +42,7 @@ OPENERS: dict[Form, Callable[[Path], Table]] = {
     MATLAB5: open_matlab5,
     MATLAB7: open_matlab7,
     MCAP: open_mcap,
+    SQLITE_BAG: open_sqlite_bag,
     BAG: open_bag,
 }
 
@@ -53,13 +54,14 @@ def read_log(
     mapping: Mapping[str, object] | None = None,
     name: str | None = None,
     sha256: str = "",
+    prismatic: Collection[int] | None = None,
 ) -> JointLog:
     """Read a log and find its defects.
 
     Parameters
     ----------
     path
-        The file: CSV, Parquet, NPZ, MATLAB v5 or v7.3, MCAP or ROS bag; its bytes decide which.
+        The file: CSV, Parquet, NPZ, MATLAB v5 or v7.3, MCAP or ROS bag (1 or 2); its bytes decide which.
     media_type
         The declared content type, checked against the bytes.
     mapping
@@ -68,6 +70,9 @@ def read_log(
         The log's name; the file's stem if None.
     sha256
         Hash of the file's bytes if it is known already; computed if empty.
+    prismatic
+        Joints of the robot, from 1, that are prismatic, for the mapping that a refusal suggests; None where
+        the robot is not known.
 
     Returns
     -------
@@ -84,16 +89,22 @@ def read_log(
     try:
         layout = bind_columns(table, mapping)
     except LogError as error:
-        raise error if mapping else _with_suggestion(error, table) from error
+        raise error if mapping else _with_suggestion(error, table, prismatic) from error
     return read_table(table, layout, name=name or path.stem, sha256=sha256 or _hash(path))
 
 
-def _with_suggestion(error: LogError, table: Table) -> LogError:
-    """Add the mapping that names and values of the columns suggest, to be confirmed."""
-    mappings = suggest_mappings(table)
+def _with_suggestion(error: LogError, table: Table, prismatic: Collection[int] | None) -> LogError:
+    """Add the mapping that names and values of the columns suggest, to be confirmed.
+
+    Where the robot is not known, the same with prismatic joints alone stands beside it.
+    """
+    mappings = suggest_mappings(table, prismatic or ())
     if not mappings:
         return explained(error, table)
     evidence = error.evidence | {"suggested_mappings": mappings}
+    if prismatic is None:
+        every = range(1, len(table.names) + 1)
+        evidence |= {"suggested_if_prismatic": suggest_mappings(table, every)}
     several = ", one for each arm" if len(mappings) > 1 else ""
     written = " or ".join(json.dumps(mapping, ensure_ascii=False) for mapping in mappings)
     return LogError(

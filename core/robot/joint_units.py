@@ -47,6 +47,11 @@ def prismatic_joints(robot: RobotModel) -> Mask:
     return np.array([is_prismatic(robot, joint) for joint in range(1, len(robot.joints) + 1)])
 
 
+def prismatic_numbers(robot: RobotModel) -> list[int]:
+    """List the prismatic joints, from 1."""
+    return (np.flatnonzero(prismatic_joints(robot)) + 1).tolist()
+
+
 def largest_of_kind(values: JointVector, prismatic: Mask) -> JointVector:
     """Give, per joint, the largest value among the joints of its kind: metres are not compared with angles.
 

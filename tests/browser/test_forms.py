@@ -1,5 +1,6 @@
 import json
 import math
+from urllib.parse import parse_qs, urlsplit
 
 import numpy as np
 import pytest
@@ -255,6 +256,43 @@ def test_the_form_numbers_the_joints_in_the_order_that_is_suggested(look, servic
     page.get_by_role("button", name="Apply suggested mapping").wait_for()
     for column, joint in {"shoulder_pos": "1", "elbow_pos": "2", "elbow_torque": "2"}.items():
         assert page.get_by_label(f"Joint of {column}").input_value() == joint
+
+
+def test_the_suggestion_has_the_units_of_the_joints_of_the_robot_that_is_chosen(look, service, tmp_path):
+    """Whether it is chosen before the log is refused or after."""
+    time, position, torque = columns(seconds=4.0)
+    path = tmp_path / "named.csv"
+    table = np.column_stack([time, position, torque])
+    np.savetxt(path, table, delimiter=",", header="time,pos_1,pos_2,eff_1,eff_2", comments="")
+    row = {"type": "revolute", "alpha": 0.0, "d": 0.0, "r": 0.0, "theta_offset": 0.0}
+    robot = {"name": "turn and slide", "joints": [row, {**row, "type": "prismatic", "alpha": 1.5}]}
+    seen = look(service)
+    seen.statuses.add(422)
+    page = seen.open("/new")
+    made = page.evaluate(
+        """async (robot) => {
+          const headers = { "content-type": "application/json" };
+          const asked = { method: "POST", headers, body: JSON.stringify(robot) };
+          return (await (await fetch("/v1/robots", asked)).json()).id;
+        }""",
+        robot,
+    )
+    page = seen.open("/new")
+    page.set_input_files("#log input[type=file]", path)
+    offered = page.get_by_role("group", name="Suggested mapping")
+    offered.get_by_role("cell", name="rad", exact=True).wait_for()
+    page.get_by_label("Robot", exact=True).select_option(made)
+    offered.get_by_role("cell", name="rad, m", exact=True).wait_for()
+    page = seen.open(f"/new?robot={made}")
+    page.get_by_text("2 joints, 1 prismatic").first.wait_for()
+    page.set_input_files("#log input[type=file]", path)
+    offered = page.get_by_role("group", name="Suggested mapping")
+    offered.get_by_role("cell", name="rad, m", exact=True).wait_for()
+    asked = posted(page, "/v1/logs", page.get_by_role("button", name="Apply suggested mapping").click)
+    (text,) = parse_qs(urlsplit(asked.url).query)["mapping"]
+    mapping = json.loads(text)
+    assert (mapping["position"]["unit"], mapping["torque"]["unit"]) == (["rad", "m"], ["N m", "N"])
+    page.get_by_role("article", name="Log named.csv").wait_for()
 
 
 def test_channels_of_a_motor_are_read_with_the_gear_that_is_entered_for_each_joint(look, service, tmp_path):

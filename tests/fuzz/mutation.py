@@ -162,7 +162,8 @@ WITHIN: dict[str, Callable[[bytes, Random], bytes]] = {
     "Parquet": spoil_footer,
     "MATLAB v5": spoil_element,
     "HDF5": spoil_metadata,
-    "MCAP": spoil,  # neither is packed
+    "MCAP": spoil,  # none of these is packed
+    "SQLite": spoil,
     "ROS bag": spoil,
 }
 

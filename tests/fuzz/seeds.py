@@ -12,7 +12,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from scipy.io import savemat
 
-from tests.core.log.recordings import write_bag, write_mcap
+from tests.core.log.recordings import write_bag, write_mcap, write_sqlite
 
 ROWS = 120
 
@@ -72,7 +72,7 @@ def recording(write: Callable[..., Path]) -> bytes:
 def seeds() -> dict[str, tuple[bytes, ...]]:
     """Give the sound files by format."""
     return {
-        "CSV": (csv(","), csv(";"), csv("\t")),
+        "CSV": (csv(","), csv(";"), csv("\t"), csv("\t").decode().encode("utf-16")),
         "NPZ": (npz(packed=False), npz(packed=True)),
         "Parquet": (
             parquet(),
@@ -81,6 +81,7 @@ def seeds() -> dict[str, tuple[bytes, ...]]:
         ),
         "MATLAB v5": (matlab5(packed=False), matlab5(packed=True)),
         "MCAP": (recording(write_mcap),),
+        "SQLite": (recording(write_sqlite),),
         "ROS bag": (recording(write_bag),),
         "HDF5": (hdf5(packed=False), hdf5(packed=True), hdf5(packed=True, libver="latest")),
     }

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from tests.app.conftest import service
-from tests.core.log.recordings import write_bag, write_mcap
+from tests.core.log.recordings import write_bag, write_mcap, write_sqlite
 from tests.hostile.corpus import MAPPING, SPECIMENS, treat, warm_up
 from tests.hostile.hdf5 import written as hdf5
 from tests.hostile.npz import Trap, archive, array_bytes
@@ -54,6 +54,7 @@ def test_the_same_log_without_the_change_is_taken(client, place):
         arrays,
         table(),
         recording(write_mcap),
+        recording(write_sqlite),
         recording(write_bag),
     ):
         answer = client.post(

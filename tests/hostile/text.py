@@ -47,8 +47,18 @@ def a_nul_byte_deep_in_the_table(_place):
 
 
 @hostile(FORM)
-def utf_16_of_either_order(_place):
-    return table().decode().encode("utf-16")
+def utf_16_without_its_mark(_place):
+    return table().decode().encode("utf-16-le")
+
+
+@hostile(FORM)
+def utf_16_of_half_characters(_place):
+    return b"\xff\xfe" + table().decode().encode("utf-16-le") + b"\x00\xdc" * 500_000
+
+
+@hostile(FORM)
+def utf_16_of_a_line_without_end(_place):
+    return ("time,q_1,tau_1\n" + "1" * 10_000_000).encode("utf-16")
 
 
 @hostile(FORM)
@@ -78,7 +88,7 @@ def a_second_line_without_end(_place):
 
 @hostile(FORM)
 def a_quotation_that_never_ends(_place):
-    return table(first='0,"1' + "\n" * 100)
+    return table(first='0,"1' + "\n" * 100, most=True)
 
 
 @hostile(FORM)

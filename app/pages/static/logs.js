@@ -8,7 +8,7 @@ import { mappingForm } from "./mapping.js";
 import { showError } from "./problem.js";
 import { bytes, count, duration, number, percent, plain, plural } from "./words.js";
 
-const ACCEPT = ".csv,.tsv,.txt,.dat,.parquet,.pq,.npz,.mat,.h5,.hdf5,.mcap,.bag";
+const ACCEPT = ".csv,.tsv,.txt,.dat,.parquet,.pq,.npz,.mat,.h5,.hdf5,.mcap,.db3,.bag";
 const LISTED = 50;
 const LONGEST_NAME = 200; // that the service keeps
 
@@ -24,12 +24,13 @@ export function chooseLogs(container, { wanted = [], chosen }) {
   const earlier = element("div", {});
   const logs = new Map();
   let robot = null;
+  let asked = null; // the form that stands open
   fill(
     container,
     element(
       "div",
       { class: "split even" },
-      dropZone("Drop a log here", "or choose a file: CSV, Parquet, MATLAB, NPZ, MCAP or ROS bag", ACCEPT, (file) =>
+      dropZone("Drop a log here", "or choose a file: CSV, Parquet, MATLAB, NPZ, MCAP or ROS bag (1 or 2)", ACCEPT, (file) =>
         take(file, null),
       ),
       earlier,
@@ -43,6 +44,7 @@ export function chooseLogs(container, { wanted = [], chosen }) {
     use(chosenRobot) {
       robot = chosenRobot;
       for (const one of logs.values()) one.redraw();
+      asked?.use(robot);
     },
   };
 
@@ -112,10 +114,12 @@ export function chooseLogs(container, { wanted = [], chosen }) {
     const form = element("div", {});
     if (problem === null) fill(place);
     place.append(form);
-    mappingForm(form, {
+    asked = mappingForm(form, {
       columns,
       readings: problem?.evidence?.plausible_readings ?? {},
       suggested: problem?.evidence?.suggested_mappings ?? [],
+      sliding: problem?.evidence?.suggested_if_prismatic ?? [],
+      robot,
       finished: (mapping) => take(file, mapping, form, replaced),
     });
   }
@@ -198,7 +202,7 @@ function facts(log) {
 function withButtonFor(error) {
   const { problem } = error ?? {};
   if (!problem?.evidence?.suggested_mappings) return error;
-  const { suggested_mappings, ...evidence } = problem.evidence;
+  const { suggested_mappings, suggested_if_prismatic, ...evidence } = problem.evidence;
   const remedy = "check the mapping that is suggested below and apply it, or map the columns yourself";
   return new ProblemError({ ...problem, remedy, evidence });
 }

@@ -50,6 +50,31 @@ function jointsIn(mapping, columns) {
   return columns.map((name) => joints.get(name) ?? null);
 }
 
+/**
+ * Give a suggested mapping the units that a robot's joints have.
+ * @param {Object} mapping as for revolute joints
+ * @param {Object} sliding as for prismatic joints
+ * @param {Object?} robot null where none was chosen
+ */
+function ofRobot(mapping, sliding, robot) {
+  const types = robot?.description.joints.filter((joint) => !joint.mimics).map((joint) => joint.type) ?? [];
+  if (!types.includes("prismatic")) return mapping;
+  const requests = Object.entries(mapping).map(([channel, request]) => {
+    if (request?.columns?.length !== types.length || !request.unit) return [channel, request];
+    const other = sliding[channel];
+    const units = types.map((type, index) => unitAt(type === "prismatic" ? other : request, index));
+    const scale = request.scale ?? other.scale;
+    const unit = new Set(units).size > 1 ? units : units[0];
+    return [channel, { ...request, unit, ...(scale === undefined ? {} : { scale }) }];
+  });
+  return Object.fromEntries(requests);
+}
+
+/** Give the unit of one joint out of one for all, or one for each. */
+function unitAt(request, index) {
+  return Array.isArray(request.unit) ? request.unit[index] : request.unit;
+}
+
 /** Show a mapping that the names of the columns suggest, to be confirmed. */
 function suggestion(mapping, finished) {
   const rows = Object.entries(mapping).map(([channel, request]) => [
@@ -90,9 +115,11 @@ function suggestion(mapping, finished) {
 /**
  * Show the form.
  * @param {HTMLElement} container
- * @param {Object} options `columns` of the file; `readings`: what units are plausible by column; `suggested` mappings; `finished(mapping)`
+ * @param {Object} options `columns` of the file; `readings`: what units are plausible by column; `suggested` mappings, and `sliding`: the
+ *   same for prismatic joints; `robot` that was chosen, if any; `finished(mapping)`
+ * @returns {{use: function(Object): void}} to be told the robot
  */
-export function mappingForm(container, { columns, readings, suggested = [], finished }) {
+export function mappingForm(container, { columns, readings, suggested = [], sliding = [], robot = null, finished }) {
   const told = rolesIn(suggested[0] ?? {}, columns);
   const roles = told.some(Boolean) ? told : likelyRoles(columns);
   const joints = jointsIn(suggested[0] ?? {}, columns);
@@ -105,13 +132,14 @@ export function mappingForm(container, { columns, readings, suggested = [], fini
   const body = element("tbody", {});
   const declared = element("div", { class: "fields" });
   const wrong = element("p", { class: "hint wrong", role: "status" });
+  const suggestions = element("div", {});
   fill(
     container,
     element(
       "section",
       { class: "mapping", "aria-label": "Mapping of columns" },
       element("h3", {}, "Map columns"),
-      suggested.map((mapping) => suggestion(mapping, finished)),
+      suggestions,
       field(
         "Recorder profile",
         menu([["", "none: map the columns below"], ...Object.entries(PROFILES)], "", (profile) => {
@@ -138,7 +166,13 @@ export function mappingForm(container, { columns, readings, suggested = [], fini
       ),
     ),
   );
+  use(robot);
   show();
+  return { use };
+
+  function use(chosen) {
+    fill(suggestions, suggested.map((mapping, index) => suggestion(ofRobot(mapping, sliding[index], chosen), finished)));
+  }
 
   function show() {
     const focused = document.activeElement?.name;

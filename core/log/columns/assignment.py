@@ -4,6 +4,7 @@ A mapping file says it for a file's columns. Here it is a value that can be chan
 through an assignment without being copied.
 """
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -159,12 +160,13 @@ def _assigned_binding(binding: Binding, assignment: Assignment) -> Binding:
     return binding.reassigned(channels.source, channels.factor, channels.offset)
 
 
-def mapping_of(log: JointLog) -> dict[str, object]:
+def mapping_of(log: JointLog, prismatic: Collection[int] = ()) -> dict[str, object]:
     """Write the mapping with which a log's file is read as the log has it.
 
-    A clock whose rate is not the stamps' is written as a rate.
+    A clock whose rate is not the stamps' is written as a rate, and lengths and forces as such at the joints,
+    from 1, that are known to be prismatic.
     """
-    mapping: dict[str, object] = {binding.name: binding.as_mapping() for binding in log.bindings}
+    mapping: dict[str, object] = {binding.name: binding.as_mapping(prismatic) for binding in log.bindings}
     factor = log.source.assignment.time_factor if isinstance(log.source, AssignedSource) else 1.0
     if TIME not in mapping or factor != 1.0:
         mapping |= {TIME: None, RATE: log.rate_hz}

@@ -1,12 +1,13 @@
 """Bind a channel to its columns: units, and what turns a number into SI."""
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 
 from ...arrays import JointSeries, Series
-from ..channels import TIME, UNITS, Unit
+from ..channels import CHANNELS, TIME, UNITS, Unit
 
 ROUNDING = 1e-9
 """Relative error that unit and scale may have from being multiplied and divided."""
@@ -47,8 +48,13 @@ class Binding:
             tuple(self.units[joint] for joint in source) if self.units else (),
         )
 
-    def as_mapping(self) -> dict[str, object]:
+    def as_mapping(self, prismatic: Collection[int] = ()) -> dict[str, object]:
         """Write the binding as a mapping says it: columns, unit, and scale and offset where they are needed.
+
+        Parameters
+        ----------
+        prismatic
+            Joints, from 1, that are known to be prismatic: angles that were declared for them are lengths.
 
         Examples
         --------
@@ -59,11 +65,12 @@ class Binding:
 
         >>> Binding("position", ("q1",), (np.pi / 180.0,), (0.0,), ("rad",)).as_mapping()
         {'columns': ['q1'], 'unit': ['deg']}
+        >>> Binding("position", ("q1",), (0.001,), (0.0,), ("rad",)).as_mapping(prismatic=[1])
+        {'columns': ['q1'], 'unit': ['mm']}
         """
         if self.name == TIME:
             return dict(zip(("column", "unit"), (*self.columns, *self.units), strict=False))
-        declared = self.units or (next(iter(UNITS[self.name])),) * len(self.columns)
-        units = list(map(partial(_unit_of, self.name), self.gain, declared))
+        units = self._units(prismatic)
         scale = [_rounded(gain / unit.factor) for gain, unit in zip(self.gain, units, strict=True)]
         offset = [bias / unit.factor - unit.offset for bias, unit in zip(self.bias, units, strict=True)]
         mapping: dict[str, object] = {"columns": list(self.columns), "unit": [unit.name for unit in units]}
@@ -73,10 +80,25 @@ class Binding:
             mapping["offset"] = offset
         return mapping
 
+    def _units(self, prismatic: Collection[int]) -> list[Unit]:
+        """Give the unit in which every column is written."""
+        names = self.units or (next(iter(UNITS[self.name])),) * len(self.columns)
+        declared = (
+            _declared(self.name, name, prismatic=joint in prismatic) for joint, name in enumerate(names, 1)
+        )
+        return list(map(partial(_unit_of, self.name), self.gain, declared))
 
-def _unit_of(channel: str, gain: float, name: str) -> Unit:
+
+def _declared(channel: str, name: str, *, prismatic: bool) -> Unit:
+    """Give a declared unit; of a prismatic joint in SI where only a revolute one has it."""
+    unit = UNITS[channel][name]
+    if not prismatic or unit.prismatic or _is_affine(unit):
+        return unit
+    return UNITS[channel][CHANNELS[channel].quantity.prismatic]
+
+
+def _unit_of(channel: str, gain: float, declared: Unit) -> Unit:
     """Give the unit of which a gain is the factor, but for its sign; else the declared one."""
-    declared = UNITS[channel][name]
     if _is_affine(declared) or _is_factor(gain, declared):
         return declared
     for unit in UNITS[channel].values():

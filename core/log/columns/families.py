@@ -5,7 +5,8 @@ quantity, and the arm where there are several.
 """
 
 import re
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
+from itertools import chain
 
 from ..channels import JOINT_CHANNELS, REFERENCE_WORDS
 
@@ -64,10 +65,12 @@ def _parts(word: str) -> tuple[str, ...]:
 def numbered_families(names: Sequence[str]) -> dict[str, list[str]]:
     """Gather columns that differ in their last number only, in the order of that number.
 
+    A joint of another kind has another unit: brackets may differ as well where no number occurs twice.
+
     Examples
     --------
-    >>> numbered_families(["t", "q2", "q1"])
-    {'q ': ['q1', 'q2']}
+    >>> numbered_families(["t", "q2", "q1"]), numbered_families(["q1 [deg]", "q2 [mm]"])
+    ({'q ': ['q1', 'q2']}, {'q': ['q1 [deg]', 'q2 [mm]']})
     """
     families: dict[str, list[tuple[int, str]]] = {}
     for name in names:
@@ -76,7 +79,21 @@ def numbered_families(names: Sequence[str]) -> dict[str, list[str]]:
             last = numbers[-1]
             stem = f"{name[: last.start()]} {name[last.end() :]}"
             families.setdefault(stem, []).append((int(last.group()), name))
-    return {stem: [name for _, name in sorted(found)] for stem, found in families.items()}
+    merged = _of_any_unit(families)
+    return {stem: [name for _, name in sorted(found)] for stem, found in merged.items()}
+
+
+def _of_any_unit(families: Mapping[str, list[tuple[int, str]]]) -> dict[str, list[tuple[int, str]]]:
+    """Merge families that differ in their brackets, if they are of different joints."""
+    alike: dict[str, list[str]] = {}
+    for stem in families:
+        alike.setdefault(_BRACKETS.sub(" ", stem).strip(), []).append(stem)
+    merged: dict[str, list[tuple[int, str]]] = {}
+    for bare, stems in alike.items():
+        found = list(chain.from_iterable(families[stem] for stem in stems))
+        is_one = len(stems) > 1 and len({number for number, _ in found}) == len(found)
+        merged |= {bare: found} if is_one else {stem: families[stem] for stem in stems}
+    return merged
 
 
 def named_families(names: Sequence[str]) -> dict[str, list[str]]:

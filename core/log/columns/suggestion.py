@@ -5,7 +5,7 @@ taken for the joints of one channel. Words in the names give the channel and, wh
 else sizes do. A suggestion is shown, never applied.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from itertools import chain
 
 import numpy as np
@@ -54,14 +54,28 @@ def suggest_mapping(table: Table) -> dict[str, object] | None:
     return next(iter(suggest_mappings(table)), None)
 
 
-def suggest_mappings(table: Table) -> list[dict[str, object]]:
-    """Give the mapping that fits the names of the columns, or one for each arm that the file holds."""
+def suggest_mappings(table: Table, prismatic: Collection[int] = ()) -> list[dict[str, object]]:
+    """Give the mapping that fits the names of the columns, or one for each arm that the file holds.
+
+    Parameters
+    ----------
+    prismatic
+        Joints, from 1, that are known to be prismatic.
+
+    Examples
+    --------
+    >>> from veritorque.core.log.formats.table import MemoryTable
+    >>> waves = {f"{name}{joint}": np.full(9, 0.4) for name in ("pos", "force") for joint in (1, 2)}
+    >>> suggested = suggest_mappings(MemoryTable({"t": 0.004 * np.arange(9.0)} | waves), prismatic=[2])
+    >>> suggested[0]["position"]["unit"], suggested[0]["torque"]["unit"]
+    (['rad', 'm'], ['N m', 'N'])
+    """
     profile = _profile(table.names)
     if profile is not None:
-        return [{PROFILE: profile} | _own_clock(profile, table) | _open_units(profile, table)]
+        return [{PROFILE: profile} | _own_clock(profile, table) | _open_units(profile, table, prismatic)]
     unnamed = unnamed_channels(table)
     whole = [unnamed] if unnamed else _named_channels(table.names)
-    return [_clock(channels, table) | _requests(channels, table) for channels in whole]
+    return [_clock(channels, table) | _requests(channels, table, prismatic) for channels in whole]
 
 
 def _named_channels(names: Sequence[str]) -> list[dict[str, list[str]]]:
@@ -114,32 +128,55 @@ def _by_arm(families: Mapping[str, list[str]]) -> list[dict[str, list[str]]]:
     return list(arms.values())
 
 
-def _requests(channels: Mapping[str, list[str]], table: Table) -> dict[str, object]:
+def _requests(
+    channels: Mapping[str, list[str]], table: Table, prismatic: Collection[int]
+) -> dict[str, object]:
     return {
-        name: {"columns": channels[name]} | _declared(name, table, channels[name][0])
+        name: {"columns": channels[name]} | _declared(name, table, channels[name], prismatic)
         for name in CHANNELS
         if name in channels and name != TIME
     }
 
 
-def _declared(channel: str, table: Table, column: str) -> dict[str, object]:
-    """Give a column's unit, and leave open what one of it is where the mapping has to say so.
+def _declared(
+    channel: str, table: Table, columns: Sequence[str], prismatic: Collection[int] = ()
+) -> dict[str, object]:
+    """Give the unit of columns, or that of each, and leave open what one of it is where a mapping has to say.
 
     What is named after the motor is on its side of a gear, whose ratio only the user knows.
     """
-    if channel in MOTOR_SIDE and "motor" in name_words(column):
-        return {"unit": _said_unit(channel, table, column) or next(iter(UNITS[channel])), "scale": UNKNOWN}
-    declared: dict[str, object] = {"unit": _unit(channel, table, column)}
-    unit = UNITS[channel].get(str(declared["unit"]))
-    return declared | ({"scale": UNKNOWN} if unit is not None and unit.needs_scale else {})
+    geared = channel in MOTOR_SIDE and "motor" in name_words(columns[0])
+    usual = next(iter(UNITS[channel])) if geared else _unit(channel, table, columns[0])
+    units = [
+        _said_unit(channel, table, column)
+        or (_unit_of_slide(channel, table, column) if joint in prismatic else usual)
+        for joint, column in enumerate(columns, 1)
+    ]
+    is_open = geared or any(unit in UNITS[channel] and UNITS[channel][unit].needs_scale for unit in units)
+    declared: dict[str, object] = {"unit": units if len(set(units)) > 1 else units[0]}
+    return declared | ({"scale": UNKNOWN} if is_open else {})
 
 
-def _open_units(profile: str, table: Table) -> dict[str, object]:
+def _unit_of_slide(channel: str, table: Table, column: str) -> str:
+    """Give the unit of a prismatic joint by the size of its column, among those that such a joint has."""
+    quantity = CHANNELS[channel].quantity
+    own = {unit.name for unit in quantity.units if unit.prismatic or unit.needs_scale}
+    if quantity.prismatic == quantity.revolute:
+        return _unit(channel, table, column)
+    readings = readings_by_column(channel, [column], table).get(column, [])
+    return next((unit for unit in map(_unit_read, readings) if unit in own), quantity.prismatic)
+
+
+def _unit_read(reading: str) -> str:
+    return reading.split(":", maxsplit=1)[0]
+
+
+def _open_units(profile: str, table: Table, prismatic: Collection[int]) -> dict[str, object]:
     """Give the units that the recorder does not fix."""
     filled = fill_in({PROFILE: profile}, table.names)
     requests = filled.items() if isinstance(filled, dict) else ()
     return {
-        name: _declared(name, table, request["columns"][0])
+        name: _declared(name, table, request["columns"], prismatic)
         for name, request in requests
         if isinstance(request, dict) and "columns" in request and "unit" not in request
     }
@@ -182,7 +219,7 @@ def suggest_units(table: Table, layout: Layout, defects: Sequence[Defect]) -> di
 
 def _in_plausible_unit(channel: Binding, joint: int | None, table: Table) -> dict[str, object]:
     """Give the request for a channel in the unit that fits a joint's column; empty where no other fits."""
-    declared = _declared(channel.name, table, channel.columns[(joint or 1) - 1])
+    declared = _declared(channel.name, table, [channel.columns[(joint or 1) - 1]])
     if declared["unit"] in (UNKNOWN, *channel.units):
         return {}
     if channel.name == TIME:
@@ -243,7 +280,7 @@ def _unit(channel: str, table: Table, column: str) -> str:
     if said is not None:
         return said
     plausible = readings_by_column(channel, [column], table)
-    return plausible[column][0].split(":")[0] if plausible else UNKNOWN
+    return _unit_read(plausible[column][0]) if plausible else UNKNOWN
 
 
 def _said_unit(channel: str, table: Table, column: str) -> str | None:

@@ -4,12 +4,15 @@ The bytes decide. A claim which contradicts them is refused rather than ignored,
 a mistake.
 """
 
+import codecs
 from dataclasses import dataclass
 from pathlib import Path
 
 from ...errors import LogError
+from .text_bytes import BYTE_ORDER_MARKS, UTF_16
 
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
+UTF_32_MARKS = (codecs.BOM_UTF32_LE, codecs.BOM_UTF32_BE)
 NO_CLAIM = ("", "application/octet-stream", "binary/octet-stream")
 
 
@@ -40,8 +43,9 @@ MATLAB7 = Form(
     (".mat", ".h5", ".hdf5"),
 )
 MCAP = Form("MCAP", ("application/x-mcap", "application/mcap"), (".mcap",))
+SQLITE_BAG = Form("ROS 2 bag (SQLite)", ("application/vnd.sqlite3", "application/x-sqlite3"), (".db3",))
 BAG = Form("ROS bag", ("application/x-rosbag",), (".bag",))
-FORMS = (DELIMITED, PARQUET, NPZ, MATLAB5, MATLAB7, MCAP, BAG)
+FORMS = (DELIMITED, PARQUET, NPZ, MATLAB5, MATLAB7, MCAP, SQLITE_BAG, BAG)
 
 _BEGINNINGS: tuple[tuple[bytes, Form], ...] = (
     (b"PAR1", PARQUET),
@@ -49,6 +53,7 @@ _BEGINNINGS: tuple[tuple[bytes, Form], ...] = (
     (b"MATLAB 7.3", MATLAB7),
     (HDF5_SIGNATURE, MATLAB7),
     (b"\x89MCAP0\r\n", MCAP),
+    (b"SQLite format 3\x00", SQLITE_BAG),
     (b"#ROSBAG V2.0\n", BAG),
 )
 _FOREIGN: tuple[tuple[bytes, str, str], ...] = (
@@ -58,16 +63,9 @@ _FOREIGN: tuple[tuple[bytes, str, str], ...] = (
     (b"7z\xbc\xaf\x27\x1c", "a 7z archive", "unpack it first"),
     (b"\x28\xb5\x2f\xfd", "a Zstandard archive", "unpack it first"),
     (b"ARROW1", "an Arrow (Feather) file", "save the table as Parquet"),
-    (
-        b"SQLite format 3\x00",
-        "an SQLite database",
-        "convert a ROS 2 bag to MCAP (ros2 bag convert), or export its joint states as CSV or Parquet",
-    ),
     (b"\xd0\xcf\x11\xe0", "an old Excel workbook", "save the sheet as CSV"),
     (b"\x93NUMPY", "a single NPY array", "save the named arrays together as NPZ"),
     (b"%PDF", "a PDF document", "upload the measured data"),
-    (b"\xff\xfe", "UTF-16 text", "save it as UTF-8"),
-    (b"\xfe\xff", "UTF-16 text", "save it as UTF-8"),
     (b"<", "an XML or HTML document", "upload the measured data as a table"),
     (b"{", "a JSON document", "save the table as CSV or Parquet"),
 )
@@ -115,6 +113,10 @@ def _form_of(head: bytes) -> Form:
         return MATLAB7
     if head[124:128] in (b"\x00\x01IM", b"\x01\x00MI"):
         return MATLAB5
+    if head.startswith(UTF_32_MARKS):
+        raise _not_a_log("UTF-32 text", "save it as UTF-8")
+    if head.startswith(BYTE_ORDER_MARKS):
+        head = head.decode(UTF_16, "replace").encode()
     _refuse_foreign(head)
     return DELIMITED
 
@@ -123,8 +125,21 @@ def _refuse_foreign(head: bytes) -> None:
     for magic, what, remedy in _FOREIGN:
         if head.lstrip(b"\xef\xbb\xbf \r\n\t").startswith(magic):
             raise _not_a_log(what, remedy)
+    if order := _unmarked_order(head):
+        raise _not_a_log(
+            f"UTF-16 text ({order} byte first) without a byte order mark",
+            "save it as UTF-8, or with the mark",
+        )
     if b"\x00" in head:
         raise _not_a_log("binary data with NUL bytes", "upload CSV, Parquet, NPZ or MAT")
+
+
+def _unmarked_order(head: bytes) -> str:
+    """Tell which byte of UTF-16 comes first, where every second byte is NUL as in Latin text."""
+    first, second = head[::2], head[1::2]
+    if not first.count(0) and 2 * second.count(0) > len(second):
+        return "lower"
+    return "upper" if not second.count(0) and 2 * first.count(0) > len(first) else ""
 
 
 def _zip_form(head: bytes) -> Form:

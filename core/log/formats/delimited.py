@@ -8,6 +8,7 @@ import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from io import BufferedReader
 from pathlib import Path
 
 import numpy as np
@@ -17,9 +18,10 @@ import pyarrow.csv as arrow_csv
 from ...arrays import Series
 from ...errors import LogError
 from .arrow import numbers, words_for_nothing
+from .odd_rows import OddRows, find_odd_rows
 from .stamps import Clock
 from .table import BY_NUMBER, MAX_COLUMNS, check_columns, check_rows, check_values, not_numeric, reading
-from .text_bytes import UTF_8, WESTERN, check_text, cut_line, encoding_of, opening_lines
+from .text_bytes import UTF_8, UTF_16, WESTERN, check_text, encoding_of, open_utf8, opening_lines
 from .text_header import (
     BLANKS,
     DELIMITERS,
@@ -34,9 +36,11 @@ from .tidy_lines import TidyLines
 
 FORM = "CSV"
 BLOCK_BYTES = 1 << 22
-_BAD_ROW = re.compile(
-    r"Row #(?P<line>\d+): Expected (?P<columns>\d+) columns, got (?P<cells>\d+): (?P<text>.*)", re.DOTALL
-)
+ENCODING_NOTES = {
+    UTF_8: (),
+    UTF_16: ("the text read as UTF-16",),
+    WESTERN: ("the text is not UTF-8, and read as Windows-1252",),
+}
 _BAD_CELL = re.compile(r"column #(?P<column>\d+).*?invalid value '(?P<found>[^']*)'", re.DOTALL)
 
 
@@ -56,8 +60,8 @@ class DelimitedTable:
     """Columns of other text."""
     units: Mapping[str, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
-    cut: bytes = b""
-    """The last line, where the recorder was stopped in the middle of it."""
+    odd: OddRows = field(default_factory=OddRows)
+    """Lines that hold no whole row."""
     repeated: bytes = b""
     """The header, where it occurs again between the rows."""
     encoding: str = UTF_8
@@ -97,21 +101,26 @@ class DelimitedTable:
             null_values=words_for_nothing(),
         )
         read = arrow_csv.ReadOptions(
-            column_names=list(self.names),
-            skip_rows=self.skip,
-            block_size=BLOCK_BYTES,
-            use_threads=False,
-            encoding=self.encoding,
+            column_names=list(self.names), skip_rows=self.skip, block_size=BLOCK_BYTES, use_threads=False
         )
         delimiter = "\t" if self.delimiter == BLANKS else self.delimiter
-        parse = arrow_csv.ParseOptions(delimiter=delimiter, invalid_row_handler=_RowJudge(self.cut))
-        with reading(FORM, self.path), self._naming_columns():
-            if self.delimiter == BLANKS or self.repeated:
-                blanks = self.delimiter == BLANKS
-                with TidyLines(self.path, blanks=blanks, without=self.repeated, skip=self.skip) as lines:
-                    yield from arrow_csv.open_csv(lines, read, parse, convert)
-            else:
-                yield from arrow_csv.open_csv(self.path, read, parse, convert)
+        parse = arrow_csv.ParseOptions(delimiter=delimiter, invalid_row_handler=_pass_over_comment)
+        with reading(FORM, self.path), self._naming_columns(), self._rows(delimiter) as rows:
+            yield from arrow_csv.open_csv(rows, read, parse, convert)
+
+    def _rows(self, delimiter: str) -> BufferedReader | TidyLines:
+        """Open the text as the parser wants it."""
+        file = open_utf8(self.path, self.encoding)
+        if self.delimiter != BLANKS and not self.repeated and self.odd == OddRows():
+            return file
+        nothing = delimiter.encode() * (len(self.names) - 1) + b"\n"
+        return TidyLines(
+            file,
+            blanks=self.delimiter == BLANKS,
+            without=self.repeated,
+            instead=dict.fromkeys(self.odd.blank, nothing) | {self.odd.cut: b""},
+            skip=self.skip,
+        )
 
     @contextmanager
     def _naming_columns(self) -> Iterator[None]:
@@ -122,26 +131,12 @@ class DelimitedTable:
             if (cell := _BAD_CELL.search(str(error))) is not None:
                 found = cell["found"][:80]
                 raise not_numeric(self.names[int(cell["column"])], found, _advice(found)) from error
-            if (row := _BAD_ROW.search(str(error))) is not None:
-                raise _row_length_error(row, self.delimiter) from error
             raise
 
 
-class _RowJudge:
-    """Pass over comments, and over the one row that was cut short; any other odd row is an error."""
-
-    def __init__(self, cut: bytes) -> None:
-        self._cut = cut
-
-    def __call__(self, row: arrow_csv.InvalidRow) -> str:
-        """Say what becomes of a row of another number of cells."""
-        if row.text.lstrip().startswith("#"):
-            return "skip"
-        is_cut = (
-            bool(self._cut) and row.actual_columns < row.expected_columns and row.text.encode() == self._cut
-        )
-        self._cut = b""
-        return "skip" if is_cut else "error"
+def _pass_over_comment(row: arrow_csv.InvalidRow) -> str:
+    """Say what becomes of a line of another number of cells: all that are no comments were found before."""
+    return "skip" if row.text.lstrip().startswith("#") else "error"
 
 
 def open_delimited(path: Path) -> DelimitedTable:
@@ -165,7 +160,7 @@ def open_delimited(path: Path) -> DelimitedTable:
     repeated -= found.header_at > 0
     cells = dict(zip(names, split_cells(row, found.delimiter), strict=False))
     stamps = tuple(name for name, cell in cells.items() if STAMP.fullmatch(cell))
-    cut = cut_line(path, found)
+    odd = find_odd_rows(path, encoding, found)
     return DelimitedTable(
         path=path,
         names=names,
@@ -175,9 +170,9 @@ def open_delimited(path: Path) -> DelimitedTable:
         stamps=stamps,
         texts=_texts(cells, stamps),
         units=_units(names, found),
-        notes=(*_encoding_notes(encoding), *_notes(found, stamps, cut=bool(cut), repeated=repeated)),
-        cut=cut,
-        repeated=lines[found.header_at].strip().encode(encoding) if repeated else b"",
+        notes=(*ENCODING_NOTES[encoding], *_notes(found, stamps, repeated), *odd.notes()),
+        odd=odd,
+        repeated=lines[found.header_at].strip().encode() if repeated else b"",
         encoding=encoding,
     )
 
@@ -201,10 +196,6 @@ def _units(names: Sequence[str], found: TextHeader) -> dict[str, str]:
     """Give the units that a line of units or the names themselves state."""
     cells = zip(names, found.cells, strict=False)
     return {name: found.units[cell] for name, cell in cells if cell in found.units}
-
-
-def _encoding_notes(encoding: str) -> list[str]:
-    return ["the text is not UTF-8, and read as Windows-1252"] if encoding == WESTERN else []
 
 
 def _first_line(lines: Sequence[str]) -> TextHeader:
@@ -252,7 +243,7 @@ def _names(found: TextHeader) -> tuple[str, ...]:
     return tuple(cell or f"{BY_NUMBER}{index + 1}" for index, cell in enumerate(cells))
 
 
-def _notes(found: TextHeader, stamps: Sequence[str], *, cut: bool, repeated: int) -> Iterator[str]:
+def _notes(found: TextHeader, stamps: Sequence[str], repeated: int) -> Iterator[str]:
     """Say what was done to read the text."""
     if found.titles:
         yield f"{found.titles} title line{'s' if found.titles > 1 else ''} above the table passed over"
@@ -266,8 +257,6 @@ def _notes(found: TextHeader, stamps: Sequence[str], *, cut: bool, repeated: int
         yield f"dates or times of day in {', '.join(map(repr, stamps))} read as seconds from the first on"
     if repeated:
         yield f"the header, repeated {repeated} times between the rows, passed over"
-    if cut:
-        yield "the last row, cut short, left out"
 
 
 def _is_spaced(lines: Sequence[str]) -> bool:
@@ -281,20 +270,3 @@ def _advice(found: str) -> str:
     if re.fullmatch(r"[-+]?\d+,\d*(e[-+]?\d+)?", found, re.IGNORECASE):
         return "write decimal points in every row, or decimal commas in every row between semicolons or tabs"
     return "store plain numbers, or map another column; a line of units below the header starts with #"
-
-
-def _row_length_error(row: re.Match[str], delimiter: str) -> LogError:
-    """Report that a row has more or fewer cells than there are columns."""
-    more = int(row["cells"]) > int(row["columns"])
-    commas = more and delimiter == "," and "." not in row["text"]
-    remedy = "write one cell per column in every row"
-    if commas:
-        remedy = "write decimal points, or keep the decimal commas and separate the columns by semicolons"
-    elif not more:
-        remedy += "; where it is the last row the file was cut short: copy it whole"
-    return LogError(
-        f"line {row['line']} holds {row['cells']} cells, and the header names {row['columns']} columns"
-        + (": the numbers seem to have decimal commas" if commas else ""),
-        evidence={"line": int(row["line"]), "text": row["text"][:120]},
-        remedy=remedy,
-    )

@@ -95,7 +95,7 @@ def _long(table: Table) -> _Long | None:
     texts = set(table.texts)
     values = tuple(name for name in table.names if name not in {key, stamp, *texts})
     words = table.words(key) if key in texts else _numbers(table, key)
-    keys = list(dict.fromkeys(words))
+    keys = list(dict.fromkeys(filter(None, words)))
     if not values or not 2 <= len(keys) <= MOST_KEYS:
         return None
     stamps = np.hstack(list(table.batches([stamp])))[0]
@@ -111,13 +111,14 @@ def _is_stamp(name: str) -> bool:
 
 
 def _numbers(table: Table, key: str) -> list[str]:
-    """Read a key of whole numbers; empty where it is none."""
+    """Read a key of whole numbers, empty where one is missing; nothing where they are none."""
     try:
         numbers = np.hstack(list(table.batches([key])))[0]
     except LogError:
         return []
-    whole = len(numbers) > 0 and bool(np.all(numbers == np.rint(numbers)))
-    return [str(int(number)) for number in numbers] if whole else []
+    known = np.isfinite(numbers)
+    whole = bool(known.any()) and bool(np.all(numbers[known] == np.rint(numbers[known])))
+    return [str(int(number)) if np.isfinite(number) else "" for number in numbers] if whole else []
 
 
 def _shared_stamps(found: _Long, stamps: np.ndarray) -> tuple[np.ndarray, list[np.ndarray | slice]]:

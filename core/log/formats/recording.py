@@ -1,4 +1,4 @@
-"""Read the joint states of ROS recordings: MCAP files of ROS 2 and bags of ROS 1.
+"""Read the joint states of ROS recordings: MCAP files and SQLite bags of ROS 2, and bags of ROS 1.
 
 Only messages of the type sensor_msgs/JointState are decoded, by the definition that is built in: one that a
 recording brings along would have to be compiled. Joints keep their names, because their order in a message
@@ -13,9 +13,10 @@ from typing import Any
 import numpy as np
 
 from ...errors import LogError
+from .sqlite_bag import sqlite_bag
 from .table import MemoryTable, check_columns, check_density, check_values, reading
 
-MCAP_FORM, BAG_FORM = "MCAP", "ROS bag"
+MCAP_FORM, SQLITE_FORM, BAG_FORM = "MCAP", "SQLite", "ROS bag"
 JOINT_STATE = "sensor_msgs/msg/JointState"
 NANOSECONDS = 1_000_000_000
 FIELDS = ("position", "velocity", "effort")
@@ -51,6 +52,20 @@ def open_mcap(path: Path) -> MemoryTable:
             return _table(_decode(reader.messages(topic), ros1=False))
         finally:
             reader.close()
+
+
+def open_sqlite_bag(path: Path) -> MemoryTable:
+    """Read the joint states of a bag of ROS 2 in SQLite.
+
+    Raises
+    ------
+    LogError
+        If the file is damaged or too large, is no bag, or holds no joint states or several topics of them.
+    """
+    _require_library()
+    with reading(SQLITE_FORM, path), sqlite_bag(path) as bag:
+        topic = _joint_states(bag.connections)
+        return _table(_decode(bag.messages(topic), ros1=False))
 
 
 def open_bag(path: Path) -> MemoryTable:
@@ -116,23 +131,25 @@ class _Publisher:
     joints: tuple[str, ...]
     """In the order of the first message."""
     stamps: list[int] = field(default_factory=list)
-    rows: list[np.ndarray] = field(default_factory=list)
-    """Fields by joints of every message; NaN where it lacks a field."""
+    content: bytearray = field(default_factory=bytearray)
+    """Float64 of every message's fields, joint by joint; NaN where it lacks a field."""
 
     def take(self, state: State) -> None:
         """Take the next message."""
-        row = np.full((len(FIELDS), len(self.joints)), np.nan)
-        order = [state.joints.index(name) for name in self.joints]
-        for place, name in enumerate(FIELDS):
-            if len(state.values[name]) == len(self.joints):
-                row[place] = state.values[name][order]
+        for name in FIELDS:
+            values = state.values[name]
+            if len(values) != len(self.joints):
+                values = np.full(len(self.joints), np.nan)
+            elif state.joints != self.joints:
+                values = values[[state.joints.index(name) for name in self.joints]]
+            self.content.extend(values.tobytes())
         self.stamps.append(state.stamp)
-        self.rows.append(row)
 
     @property
-    def values(self) -> int:
-        """Count the numbers, one for the joint and instant."""
-        return len(self.joints) * len(self.rows)
+    def block(self) -> np.ndarray:
+        """Give fields by joints by messages."""
+        shape = (len(self.stamps), len(FIELDS), len(self.joints))
+        return np.ndarray(shape, dtype=np.float64, buffer=self.content).transpose(1, 2, 0)
 
 
 def _table(states: Iterator[State]) -> MemoryTable:
@@ -141,15 +158,19 @@ def _table(states: Iterator[State]) -> MemoryTable:
     Others may publish messages of other joints on the topic: those who give most values are taken.
     """
     publishers: dict[frozenset[str], _Publisher] = {}
+    by_order: dict[tuple[str, ...], _Publisher] = {}
     values = 0
     for state in states:
         values += 1 + len(FIELDS) * len(state.joints)
         check_values(values)
-        publishers.setdefault(frozenset(state.joints), _Publisher(state.joints)).take(state)
+        if state.joints not in by_order:
+            publisher = publishers.setdefault(frozenset(state.joints), _Publisher(state.joints))
+            by_order[state.joints] = publisher
+        by_order[state.joints].take(state)
     if not publishers:
         raise LogError("the recording holds no messages", evidence={"messages": 0}, remedy="record a motion")
-    chosen = max(publishers.values(), key=lambda publisher: publisher.values)
-    block = np.array(chosen.rows).transpose(1, 2, 0)
+    chosen = max(publishers.values(), key=lambda publisher: len(publisher.content))
+    block = chosen.block
     given = [place for place in range(len(FIELDS)) if not np.isnan(block[place]).all()]
     names = [f"{FIELDS[place]}.{joint}" for place in given for joint in chosen.joints]
     check_columns(names)
@@ -161,7 +182,7 @@ def _table(states: Iterator[State]) -> MemoryTable:
 def _passed_over(publishers: Iterable[_Publisher], chosen: _Publisher) -> tuple[str, ...]:
     """Say which messages are not of the joints that were taken."""
     return tuple(
-        f"{len(other.rows)} message{'s' if len(other.rows) > 1 else ''} of "
+        f"{len(other.stamps)} message{'s' if len(other.stamps) > 1 else ''} of "
         f"{', '.join(other.joints[:8]) or 'no joint'} passed over"
         for other in publishers
         if other is not chosen

@@ -1,31 +1,37 @@
-"""Look at the bytes of a text table before its rows are parsed: first lines, encoding, last line."""
+"""Look at the bytes of a text table before its rows are parsed: first lines and encoding.
+
+Text in another encoding is turned into UTF-8 as it is read, so that whatever comes after knows no other.
+"""
 
 import codecs
+import io
 import re
 from collections.abc import Sequence
 from itertools import islice
 from pathlib import Path
 
 from ...errors import LogError
-from .text_header import BLANKS, DELIMITERS, TextHeader, is_comment, is_number, split_cells
+from .text_header import DELIMITERS, is_comment
 
 HEAD_BYTES = 1 << 20
 MOST_HEAD_BYTES = 64 << 20
 """Where the header has to have come, whatever stands before it."""
-LAST_BYTES = 1 << 16
 MAX_COMMENTS = 100_000
 
 
-UTF_8, WESTERN = "utf-8", "cp1252"
+UTF_8, UTF_16, WESTERN = "utf-8", "utf-16", "cp1252"
+BYTE_ORDER_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 def encoding_of(path: Path) -> str:
-    """Tell UTF-8 from the code page of recorders on Windows, which write degrees and umlauts in one byte.
+    """Tell UTF-8 from what is usual on Windows: UTF-16 with its mark, and degrees and umlauts in one byte.
 
-    Numbers are the same in both; names and units differ.
+    Numbers are the same in the code page and in UTF-8; names and units differ.
     """
     with path.open("rb") as stream:
         head = stream.read(HEAD_BYTES)
+    if head.startswith(BYTE_ORDER_MARKS):
+        return UTF_16
     try:
         codecs.getincrementaldecoder(UTF_8)().decode(head)
     except UnicodeDecodeError:
@@ -33,22 +39,71 @@ def encoding_of(path: Path) -> str:
     return UTF_8
 
 
+def open_utf8(path: Path, encoding: str) -> io.BufferedReader:
+    """Open text to read it as UTF-8, in whatever encoding it is."""
+    if encoding == UTF_8:
+        return path.open("rb")
+    return io.BufferedReader(_Recoded(path, encoding))
+
+
+class _Recoded(io.RawIOBase):
+    """Give text of another encoding as UTF-8; half a character at the very end is left out."""
+
+    def __init__(self, path: Path, encoding: str) -> None:
+        super().__init__()
+        self._file = path.open("rb")
+        self._encoding = encoding
+        self._decoder = codecs.getincrementaldecoder(encoding)()
+        self._ready = memoryview(b"")
+
+    def readable(self) -> bool:
+        """Tell that bytes can be read."""
+        return True
+
+    def readinto(self, buffer: memoryview) -> int:  # type: ignore[override]  # every buffer can be one
+        """Fill a buffer, or part of it; 0 at the end.
+
+        Raises
+        ------
+        LogError
+            If the bytes are not of this encoding.
+        """
+        while not self._ready:
+            begin = self._file.tell()
+            block = self._file.read(HEAD_BYTES)
+            if not block:
+                return 0
+            try:
+                self._ready = memoryview(self._decoder.decode(block).encode())
+            except UnicodeError as error:
+                raise _not_encoded(self._encoding, begin, error) from error
+        size = min(len(buffer), len(self._ready))
+        buffer[:size] = self._ready[:size]
+        self._ready = self._ready[size:]
+        return size
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+        super().close()
+
+
 def opening_lines(path: Path, encoding: str) -> list[str]:
     """Read the first megabyte, and on where it holds nothing but comments and perhaps one line more."""
-    with path.open("rb") as stream:
+    with open_utf8(path, encoding) as stream:
         head = stream.read(HEAD_BYTES)
-        lines = _lines(head, encoding)
+        lines = _lines(head)
         while len(_content(lines)) < 2 and len(lines) <= MAX_COMMENTS and len(head) < MOST_HEAD_BYTES:
             more = stream.read(len(head))
             if not more:
                 break
             head += more
-            lines = _lines(head, encoding)
+            lines = _lines(head)
     return lines
 
 
-def _lines(head: bytes, encoding: str) -> list[str]:
-    return re.split("\r\n|\r|\n", _decode(head, encoding))
+def _lines(head: bytes) -> list[str]:
+    return re.split("\r\n|\r|\n", _decode(head))
 
 
 def _content(lines: Sequence[str]) -> list[int]:
@@ -60,14 +115,14 @@ def _content(lines: Sequence[str]) -> list[int]:
 def check_text(path: Path, header: str, encoding: str) -> int:
     """Refuse NUL bytes, other encodings, lines of a megabyte and endless comments; count repeated headers."""
     begin = comments = repeated = 0
-    again = b"\n" + header.strip().encode(encoding)
-    decoder = codecs.getincrementaldecoder(encoding)()
-    with path.open("rb") as stream:
+    again = b"\n" + header.strip().encode()
+    decoder = codecs.getincrementaldecoder(UTF_8)()
+    with open_utf8(path, encoding) as stream:
         while piece := stream.read(HEAD_BYTES):
             try:
                 decoder.decode(piece)
             except UnicodeDecodeError as error:
-                raise _not_utf8(begin, error) from error
+                raise _not_encoded(UTF_8, begin, error) from error
             if b"\x00" in piece:
                 raise LogError(
                     "the text holds NUL bytes",
@@ -92,7 +147,7 @@ def check_text(path: Path, header: str, encoding: str) -> int:
     return repeated
 
 
-def _decode(head: bytes, encoding: str) -> str:
+def _decode(head: bytes) -> str:
     if b"\n" not in head and b"\r" not in head and len(head) == HEAD_BYTES:
         raise LogError(
             "the first line is longer than 1 MB, which no header of a log is",
@@ -101,26 +156,16 @@ def _decode(head: bytes, encoding: str) -> str:
         )
     try:
         text = head[: head.rfind(b"\n") + 1 or None]
-        return text.decode("utf-8-sig" if encoding == UTF_8 else encoding)
+        return text.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise _not_utf8(0, error) from error
+        raise _not_encoded(UTF_8, 0, error) from error
 
 
-def _not_utf8(begin: int, error: UnicodeDecodeError) -> LogError:
+def _not_encoded(encoding: str, begin: int, error: UnicodeError) -> LogError:
+    """Report bytes that are no text; where the code page fails, UTF-8 did before."""
+    at = {"byte": begin + error.start} if isinstance(error, UnicodeDecodeError) else {}
     return LogError(
-        "the text is not UTF-8",
-        evidence={"byte": begin + error.start, "value": error.object[error.start]},
+        f"the text is not {'UTF-16, which its mark announces' if encoding == UTF_16 else 'UTF-8'}",
+        evidence=at | {"detail": str(error)[:200]},
         remedy="save the file as UTF-8",
     )
-
-
-def cut_line(path: Path, found: TextHeader) -> bytes:
-    """Give the last line if it is shorter than a row; empty where it is whole."""
-    with path.open("rb") as stream:
-        stream.seek(-min(path.stat().st_size, LAST_BYTES), 2)
-        last = stream.read().rstrip(b"\r\n").splitlines()[-1:]
-    text = last[0].decode("utf-8", "replace") if last else ""
-    cells = split_cells(text, found.delimiter)
-    if is_comment(text) or len(cells) >= found.width or not is_number(cells[0]):
-        return b""
-    return b"\t".join(last[0].split()) if found.delimiter == BLANKS else last[0]

@@ -1,8 +1,9 @@
-"""Give the bytes of a text table with one tab between its cells, and without headers that come again."""
+"""Give the bytes of a text table with one tab between its cells, and without lines that are no rows."""
 
 import io
 import re
-from pathlib import Path
+from collections.abc import Mapping
+from io import BufferedReader
 
 BLOCK_BYTES = 1 << 20
 _BLANKS = re.compile(rb"[ \t]+")
@@ -10,7 +11,7 @@ _EDGES = re.compile(rb"^\t|\t(?=\r?$)", re.MULTILINE)
 
 
 class TidyLines(io.RawIOBase):
-    """Read a file line by line, as the parser of tables wants its lines.
+    """Read a file of UTF-8 line by line, as the parser of tables wants its lines.
 
     Parameters
     ----------
@@ -18,16 +19,22 @@ class TidyLines(io.RawIOBase):
         Whether any number of blanks and tabs separates two cells.
     without
         A line that is left out where it comes again; empty for none.
+    instead
+        What is given in the place of a line, by its number from 1.
     skip
         Physical lines before the first row of data, which are given as they are.
     """
 
-    def __init__(self, path: Path, *, blanks: bool, without: bytes, skip: int) -> None:
+    def __init__(
+        self, file: BufferedReader, *, blanks: bool, without: bytes, instead: Mapping[int, bytes], skip: int
+    ) -> None:
         super().__init__()
-        self._file = path.open("rb")
+        self._file = file
         self._blanks = blanks
         self._without = without
+        self._instead = instead
         self._skip = skip
+        self._line = 0
         self._rest = b""
         self._ready = b""
 
@@ -55,10 +62,17 @@ class TidyLines(io.RawIOBase):
         super().close()
 
     def _tidy(self, lines: bytes) -> bytes:
-        if self._without:
-            lines = b"".join(line for line in lines.splitlines(keepends=True) if self._is_kept(line))
-        return _EDGES.sub(b"", _BLANKS.sub(b"\t", lines)) if self._blanks else lines
+        if self._without or self._instead:
+            return b"".join(map(self._row, lines.splitlines(keepends=True)))
+        return self._separated(lines)
 
-    def _is_kept(self, line: bytes) -> bool:
-        self._skip -= 1
-        return self._skip >= 0 or line.strip() != self._without
+    def _row(self, line: bytes) -> bytes:
+        self._line += 1
+        if self._line in self._instead:
+            return self._instead[self._line]
+        if self._line > self._skip and self._without and line.strip() == self._without:
+            return b""
+        return self._separated(line)
+
+    def _separated(self, lines: bytes) -> bytes:
+        return _EDGES.sub(b"", _BLANKS.sub(b"\t", lines)) if self._blanks else lines

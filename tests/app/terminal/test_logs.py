@@ -214,8 +214,8 @@ TEXTS = {
         "unit in the file: deg",
         'map position with "unit": "deg"',
     ),
-    "a row in the middle cut short": (
-        lambda text: text.replace("\n", "\n0.0,1.0\n", 200).replace("\n0.0,1.0\n", "\n", 199),
+    "rows in the middle cut short": (
+        lambda text: text.replace("\n", "\n0.0,1.0\n", 200).replace("\n0.0,1.0\n", "\n", 50),
         "holds 2 cells",
         "one cell per column",
     ),

@@ -121,7 +121,12 @@ def test_a_slide_in_millimetres_is_named_and_not_its_force_in_another_unit(rever
     document = identify(IdentifyRequest(robot, (log,), PLAIN))
     named = {(row["conflict"], *row["joints"], row["channel"]) for row in document["conflicts"]}
     assert named == {("unit", 3, "position")} | ({("torque_sign", 2, "torque")} if reversed_ else set())
-    assert document["conflicts"][-1]["correction"]["mapping"]["position"]["scale"] == [1.0, 1.0, 1e-3, 1.0]
+    mapping = document["conflicts"][-1]["correction"]["mapping"]
+    assert mapping["position"] == {
+        "columns": ["q_1", "q_2", "q_3", "q_4"],
+        "unit": ["rad", "rad", "mm", "rad"],
+    }
+    assert mapping["torque"]["unit"] == ["N m", "N m", "N", "N m"]
 
 
 @pytest.mark.parametrize("factor", [180.0 / np.pi, np.pi / 180.0])

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 from rosbags.rosbag1 import Writer as BagWriter
 from rosbags.rosbag2 import StoragePlugin
-from rosbags.rosbag2 import Writer as McapWriter
+from rosbags.rosbag2 import Writer as Ros2Writer
 from rosbags.typesys import Stores, get_typestore
 
 JOINT_STATE = "sensor_msgs/msg/JointState"
@@ -28,13 +28,21 @@ def messages(types, columns, joints, *, ros1):
 
 
 def write_mcap(folder: Path, columns, joints, *, topics=("/joint_states",)) -> Path:
+    return _write_ros2(folder, columns, joints, topics, StoragePlugin.MCAP) / "made.mcap"
+
+
+def write_sqlite(folder: Path, columns, joints, *, topics=("/joint_states",)) -> Path:
+    return _write_ros2(folder, columns, joints, topics, StoragePlugin.SQLITE3) / "made.db3"
+
+
+def _write_ros2(folder: Path, columns, joints, topics, storage: StoragePlugin) -> Path:
     types = get_typestore(Stores.ROS2_HUMBLE)
-    with McapWriter(folder / "made", version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+    with Ros2Writer(folder / "made", version=9, storage_plugin=storage) as writer:
         for topic in topics:
             connection = writer.add_connection(topic, JOINT_STATE, typestore=types)
             for stamp, message in messages(types, columns, joints, ros1=False):
                 writer.write(connection, stamp, types.serialize_cdr(message, JOINT_STATE))
-    return folder / "made" / "made.mcap"
+    return folder / "made"
 
 
 def write_bag(folder: Path, columns, joints, *, topics=("/joint_states",)) -> Path:

@@ -5,7 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from veritorque.core.log.channels import CHANNELS, UNITS
 from veritorque.core.log.columns.assignment import Assignment, assigned, mapping_of
+from veritorque.core.log.columns.binding import Binding
 from veritorque.core.log.model import whole_rows
 from veritorque.core.log.reader import read_log
 
@@ -37,11 +39,35 @@ def log(request, tmp_path):
     return path, read_log(path, mapping=mapping)
 
 
+WRITTEN = {
+    ("position", "rad", 1e-3): "mm",
+    ("position", "rad", 1.0): "m",
+    ("position", "mm", 1e3): "m",
+    ("position", "m", -1e-3): "mm",
+    ("velocity", "rad/s", 1e-3): "mm/s",
+    ("torque", "N m", -1.0): "N",
+}
+
+
+@pytest.mark.parametrize(("channel", "declared", "factor"), WRITTEN)
+def test_the_correction_of_a_prismatic_joint_is_written_in_its_units(channel, declared, factor):
+    """The other joint is revolute, and stays in the units that were declared for it."""
+    unit = CHANNELS[channel].quantity.revolute
+    gain = UNITS[channel][declared].factor * factor
+    bound = Binding(channel, ("a", "b"), (1.0, gain), (0.0, 0.0), (unit, declared))
+    written = bound.as_mapping(prismatic=[2])
+    assert written["unit"] == [unit, WRITTEN[channel, declared, factor]]
+    assert written.get("scale", [1.0, 1.0]) == [1.0, np.sign(factor)]
+
+
+@pytest.mark.parametrize("prismatic", [(), (2,), (1, 2, 3)])
 @pytest.mark.parametrize("change", sorted(CHANGES))
-def test_the_mapping_of_an_assigned_log_reads_its_file_as_the_log_is(log, change):
+def test_the_mapping_of_an_assigned_log_reads_its_file_as_the_log_is_whichever_joints_are_prismatic(
+    log, change, prismatic
+):
     path, read = log
     other = assigned(read, CHANGES[change](Assignment.as_measured(3)))
-    again = read_log(path, mapping=mapping_of(other))
+    again = read_log(path, mapping=mapping_of(other, prismatic))
     for name, values in whole_rows(other).channels().items():
         np.testing.assert_allclose(whole_rows(again).channels()[name], values, rtol=1e-12, atol=1e-12)
 

@@ -211,3 +211,51 @@ def test_half_a_log_is_told_to_be_joined_with_the_other_half(names, there, absen
     assert "veritorque logs join" in seen.refusal.remedy
     with pytest.raises(LogError, match="and no"):
         read_log(path)
+
+
+@pytest.mark.parametrize(
+    ("names", "scales", "units"),
+    [
+        (("pos1", "pos2", "trq1", "trq2"), (1.0, 0.2, 1.0, 1.0), (["rad", "m"], ["N m", "N"])),
+        (("pos1", "pos2", "trq1", "trq2"), (DEG, 200.0, 1.0, 1.0), (["deg", "mm"], ["N m", "N"])),
+        (("pos1", "pos2", "trq1", "trq2"), (1.0, 0.0, 1.0, 1e-4), (["rad", "m"], ["N m", "N"])),
+        (("pos1 [deg]", "pos2 [m]", "trq1", "trq2 [N]"), (DEG, 0.2, 1.0, 1.0), (["deg", "m"], ["N m", "N"])),
+    ],
+)
+def test_a_prismatic_joint_of_the_robot_is_suggested_in_lengths_and_forces(names, scales, units, tmp_path):
+    """By its name, its size, or SI where neither tells; and the log is read by it."""
+    path = write_csv(tmp_path / "log.csv", recorded("time", *names, scales=scales))
+    with pytest.raises(LogError) as refusal:
+        read_log(path, prismatic=[2])
+    (offered,) = refusal.value.evidence["suggested_mappings"]
+    assert (offered["position"]["unit"], offered["torque"]["unit"]) == units
+    assert "suggested_if_prismatic" not in refusal.value.evidence
+    si = [1.0, {"m": 1.0, "mm": 1e-3}[units[0][1]]]
+    rows = whole_rows(read_log(path, mapping=offered))
+    np.testing.assert_allclose(rows.position[:, 1], COLUMNS["q_2"] * scales[1] * si[1], atol=1e-9)
+
+
+def test_velocities_of_a_prismatic_joint_are_metres_per_second_and_currents_stay_amperes(tmp_path):
+    names = ("pos1", "pos2", "cur1", "cur2")
+    table = recorded("time", *names) | {f"vel{joint}": COLUMNS["q_1"] for joint in (1, 2)}
+    with pytest.raises(LogError) as refusal:
+        read_log(write_csv(tmp_path / "log.csv", table), prismatic=[1, 2])
+    (offered,) = refusal.value.evidence["suggested_mappings"]
+    assert {name: offered[name]["unit"] for name in ("position", "velocity", "current")} == {
+        "position": "m",
+        "velocity": "m/s",
+        "current": "A",
+    }
+
+
+def test_where_the_robot_is_not_known_both_kinds_of_joint_are_suggested(tmp_path):
+    path = write_csv(tmp_path / "log.csv", recorded("time", "pos1", "pos2", "trq1", "trq2"))
+    with pytest.raises(LogError) as refusal:
+        read_log(path)
+    (turning,) = refusal.value.evidence["suggested_mappings"]
+    (sliding,) = refusal.value.evidence["suggested_if_prismatic"]
+    assert (turning["position"]["unit"], sliding["position"]["unit"]) == ("rad", "m")
+    assert {name: request["columns"] for name, request in turning.items() if name != "time"} == {
+        name: request["columns"] for name, request in sliding.items() if name != "time"
+    }
+    assert check_log(path).suggestion == turning

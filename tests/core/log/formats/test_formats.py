@@ -35,11 +35,11 @@ def test_a_healthy_log_has_no_defect(form, tmp_path):
 
 @FORMS
 def test_a_file_cut_short_or_overwritten_is_a_log_error_or_still_a_log(form, tmp_path):
-    """Only our own error may come out of damage; text cut at a line's end may still be read."""
+    """Only our own error may come out of damage. Text loses the damaged rows, and the log says so."""
     name, write = WRITERS[form]
     whole = write(tmp_path / name, COLUMNS).read_bytes()
     random = np.random.default_rng(1)
-    refusals = []
+    is_text, refusals = form in ("CSV", "TSV"), []
     for trial in range(12):
         damaged = bytearray(whole[: int(random.integers(20, len(whole)))] if trial % 2 else whole)
         if trial % 2 == 0:
@@ -48,10 +48,11 @@ def test_a_file_cut_short_or_overwritten_is_a_log_error_or_still_a_log(form, tmp
         path = tmp_path / f"damaged{trial}{(tmp_path / name).suffix}"
         path.write_bytes(bytes(damaged))
         try:
-            read_log(path)
+            log = read_log(path)
+            assert log.defects or not is_text or trial % 2
         except LogError as error:
             refusals.append(error)
-    assert len(refusals) >= 6
+    assert is_text or len(refusals) >= 6
     assert all(error.remedy for error in refusals)
     assert not any("TypeCheckError" in str(error.evidence) for error in refusals)  # a fault of ours
 
@@ -237,7 +238,6 @@ def test_more_columns_than_a_log_can_have_are_refused(form, tmp_path):
         (b"\x89MCAP0\r\n", "MCAP"),
         (b"PK\x03\x04....[Content_Types].xml", "Excel"),
         (b'{"time": [0, 1]}', "JSON"),
-        (b"\xff\xfet\x00i\x00", "UTF-16"),
         (b"time,q_1\n\x00\x01\x02", "NUL"),
     ],
 )

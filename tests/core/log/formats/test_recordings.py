@@ -1,3 +1,6 @@
+import sqlite3
+from contextlib import closing
+
 import numpy as np
 import pytest
 
@@ -11,14 +14,14 @@ from rosbags.rosbag2 import StoragePlugin
 from rosbags.rosbag2 import Writer as McapWriter
 from rosbags.typesys import Stores, get_typestore
 
-from tests.core.log.recordings import JOINT_STATE, messages, write_bag, write_mcap
+from tests.core.log.recordings import JOINT_STATE, messages, write_bag, write_mcap, write_sqlite
 
 COLUMNS = swing(seconds=4.0)
 COLUMNS |= {f"qd_{joint}": np.gradient(COLUMNS[f"q_{joint}"], COLUMNS["time"]) for joint in (1, 2, 3)}
 JOINTS = {"elbow": 3, "shoulder_lift": 2, "shoulder_pan": 1}
 """In the order of the alphabet, as ROS often publishes them; the robot's order is another."""
 ORDER = ["shoulder_pan", "shoulder_lift", "elbow"]
-WRITERS = pytest.mark.parametrize("write", [write_mcap, write_bag])
+WRITERS = pytest.mark.parametrize("write", [write_mcap, write_sqlite, write_bag])
 
 
 @WRITERS
@@ -105,6 +108,68 @@ def test_a_recording_cut_short_or_corrupted_is_refused_or_still_a_log(write, tmp
         except LogError:
             refused += 1
     assert refused >= 15
+
+
+@pytest.fixture
+def sqlite_bag(tmp_path):
+    """Write a bag in SQLite, and let a test change it by statements."""
+    path = write_sqlite(tmp_path, COLUMNS, JOINTS)
+
+    def changed(*statements):
+        with closing(sqlite3.connect(path)) as database, database:
+            for statement in statements:
+                database.execute(statement)
+        return path
+
+    return changed
+
+
+def test_messages_of_other_topics_are_not_touched_however_large_they_are(sqlite_bag):
+    path = sqlite_bag(
+        "INSERT INTO topics VALUES (9, '/camera', 'sensor_msgs/msg/Image', 'cdr', '', '')",
+        "INSERT INTO messages SELECT NULL, 9, timestamp, zeroblob(3000000) FROM messages LIMIT 3",
+    )
+    log = read_log(path, mapping={"profile": "ros-jointstate", "joints": ORDER})
+    np.testing.assert_array_equal(whole_rows(log).position[:, 0], COLUMNS["q_1"])
+
+
+@pytest.mark.parametrize(
+    ("statement", "cause", "remedy"),
+    [
+        ("UPDATE topics SET serialization_format = 'protobuf'", "not serialised as CDR", "ros2 bag convert"),
+        ("UPDATE messages SET data = x'28b52ffd00'", "compressed one by one", "ros2 bag convert"),
+        ("DROP TABLE topics", "no ROS 2 bag", "CSV or Parquet"),
+        ("CREATE VIEW more AS SELECT * FROM messages", "no ROS 2 bag", "CSV or Parquet"),
+        ("DELETE FROM messages", "no messages", "record a motion"),
+    ],
+)
+def test_a_bag_in_sqlite_that_cannot_be_read_is_refused_with_what_to_do(statement, cause, remedy, sqlite_bag):
+    with pytest.raises(LogError, match=cause) as refusal:
+        read_log(sqlite_bag(statement))
+    assert remedy in refusal.value.remedy
+
+
+def test_messages_that_a_killed_recorder_left_beside_its_bag_are_not_forgotten(sqlite_bag, tmp_path):
+    """The remedy is carried out: SQLite writes them back, and the log is whole."""
+    path = sqlite_bag("PRAGMA journal_mode = WAL")
+    with closing(sqlite3.connect(path)) as recorder, recorder:
+        recorder.execute("UPDATE messages SET timestamp = timestamp + 1")
+        recorder.commit()
+        killed = tmp_path / "killed.db3"
+        killed.write_bytes(path.read_bytes())
+        killed.with_name("killed.db3-wal").write_bytes(path.with_name("made.db3-wal").read_bytes())
+    with pytest.raises(LogError, match="in a file beside it") as refusal:
+        read_log(killed)
+    assert "wal_checkpoint" in refusal.value.remedy
+    with closing(sqlite3.connect(killed)) as database:
+        database.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+    assert read_log(killed, mapping={"profile": "ros-jointstate", "joints": ORDER}).joints == 3
+
+
+def test_a_bag_in_sqlite_is_read_whatever_its_name_says_to_sqlite(sqlite_bag, tmp_path):
+    path = sqlite_bag().rename(tmp_path / "50% of #2?mode=rw.db3")
+    assert read_log(path, mapping={"profile": "ros-jointstate", "joints": ORDER}).joints == 3
+    assert sorted(file.name for file in tmp_path.iterdir()) == [path.name, "made"]
 
 
 def test_without_the_library_the_refusal_says_what_to_install(tmp_path, monkeypatch):

@@ -8,12 +8,19 @@ import pytest
 from tests.core.log.writers import swing
 from veritorque.core.errors import LogError
 from veritorque.core.log.check import check_log
+from veritorque.core.log.formats.odd_rows import MOST_ODD
 from veritorque.core.log.model import whole_rows
 from veritorque.core.log.reader import read_log
 
 COLUMNS = swing(joints=2)
 NAMES = list(COLUMNS)
 ROWS = [[f"{value:.9f}" for value in row] for row in zip(*COLUMNS.values(), strict=True)]
+WITHOUT_CLOCK = {
+    "time": None,
+    "rate_hz": 250.0,
+    "position": {"columns": ["q_1", "q_2"], "unit": "rad"},
+    "torque": {"columns": ["tau_1", "tau_2"], "unit": "N m"},
+}
 BY_NUMBER = {
     "time": {"column": 1, "unit": "s"},
     "position": {"columns": [2, 3], "unit": "rad"},
@@ -132,11 +139,87 @@ def test_a_row_of_units_that_contradicts_the_default_names_is_not_passed_over(ro
     assert f'map {channel} with "unit": "{unit}"' in refusal.value.remedy
 
 
-def test_only_the_last_row_may_be_cut_short(tmp_path):
+ODD = {
+    "too few cells": lambda cells: cells[:2],
+    "too many cells": lambda cells: [*cells, *cells],
+    "two rows in one": lambda cells: [*cells[:3], *cells],
+    "a cell alone": lambda cells: cells[:1],
+    "a quotation mark of a lost byte": lambda cells: [*cells[:2], '"' + cells[2], *cells[3:]],
+    "noise": lambda _: ["\x15\x7f~)"],
+}
+
+
+@pytest.mark.parametrize("delimiter", [",", ";", "\t", " "])
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize("kind", ODD)
+def test_a_few_rows_of_another_length_are_listed_by_line_and_cost_nothing_but_themselves(
+    kind, end, delimiter, tmp_path
+):
+    """Every other row stands where it stood, with a clock and without one."""
+    spoilt = [400, 401, 900, len(ROWS) - 1]
+    text = ["# a comment", *lines(delimiter)]
+    for row in spoilt:
+        text[row + 2] = delimiter.join(ODD[kind](ROWS[row]))
+    path = tmp_path / "log.txt"
+    path.write_bytes(end.join([*text, ""]).encode())
+    kept = np.delete(np.arange(len(ROWS)), spoilt)
+    log = read_log(path)
+    for own, time in (
+        (log, COLUMNS["time"]),
+        (read_log(path, mapping=WITHOUT_CLOCK), np.arange(len(ROWS)) / 250),
+    ):
+        rows = whole_rows(own)
+        np.testing.assert_allclose(rows.time, time[kept], atol=1e-8)
+        np.testing.assert_allclose(rows.torque[:, 1], COLUMNS["tau_2"][kept], atol=1e-9)
+    said = log.defects[0].statement
+    assert "3 rows with another number of cells than there are columns read as blank" in said
+    assert "(lines 403, 404, 903)" in said
+    assert f"the last row, cut short, left out (line {len(ROWS) + 2})" in said
+    assert [(defect.kind, defect.count) for defect in log.defects[1:]][:1] == [("missing_values", 3)]
+
+
+@pytest.mark.parametrize("last", ["-", "1.2e-", "-0.5e", "."])
+def test_a_last_row_that_breaks_off_within_its_last_number_is_left_out(last, tmp_path):
     path = tmp_path / "log.csv"
-    path.write_text("\n".join([*lines()[:900], "12.000,0.1", *lines()[900:], "12.000,0.1"]))
-    with pytest.raises(LogError, match="holds 2 cells"):
+    path.write_text("\n".join([*lines()[:-1], ",".join([*ROWS[-1][:-1], last])]))
+    assert read_log(path).samples == len(ROWS) - 1
+
+
+@pytest.mark.parametrize("more", [0, 1])
+def test_rows_of_another_length_are_refused_where_they_are_no_rare_damage(more, tmp_path):
+    odd = int(MOST_ODD * len(ROWS)) + more
+    text = lines()
+    for row in range(odd):
+        text[3 * row + 11] = "0.1,0.2"
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(text))
+    if not more:
+        assert read_log(path).samples == len(ROWS) - odd
+        return
+    with pytest.raises(LogError, match="line 12 holds 2 cells, and the header names 5 columns") as refusal:
         read_log(path)
+    assert f"{odd} of {len(ROWS)} rows" in refusal.value.cause
+    assert refusal.value.evidence["lines"][:3] == [12, 15, 18]
+    assert "one cell per column" in refusal.value.remedy
+
+
+@pytest.mark.parametrize("key", [["shoulder", "elbow"], ["1", "2"]])
+def test_a_row_of_another_length_costs_a_long_table_one_joint_at_one_instant(key, tmp_path):
+    rows = [
+        f"{time:.6f},{name},{COLUMNS[f'q_{j}'][row]:.9f},{COLUMNS[f'tau_{j}'][row]:.9f}"
+        for row, time in enumerate(COLUMNS["time"])
+        for j, name in enumerate(key, 1)
+    ]
+    rows[501] = rows[501][:12]
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(["time,joint,position,effort", *rows]))
+    mapping = {
+        "position": {"columns": [f"position.{name}" for name in key], "unit": "rad"},
+        "torque": {"columns": [f"effort.{name}" for name in key], "unit": "N m"},
+    }
+    log = read_log(path, mapping=mapping)
+    kept = np.delete(np.arange(len(ROWS)), 250)
+    np.testing.assert_allclose(whole_rows(log).position[:, 1], COLUMNS["q_2"][kept], atol=1e-8)
 
 
 @pytest.mark.parametrize("repeated", [False, True])
@@ -154,3 +237,59 @@ def test_the_code_page_of_windows_is_read_with_its_degrees_and_umlauts(repeated,
     log = read_log(path, mapping=seen.suggestion)
     np.testing.assert_allclose(np.degrees(whole_rows(log).position[:, 0]), columns["q_1"], atol=1e-7)
     assert "read as Windows-1252" in log.defects[0].statement
+
+
+@pytest.mark.parametrize("order", ["utf-16-le", "utf-16-be"])
+@pytest.mark.parametrize("kind", FILES)
+def test_text_in_utf_16_with_its_mark_is_read_as_in_utf_8(kind, order, tmp_path):
+    text = "\r\n".join(["Prüfstand №3", "", *FILES[kind]])
+    (tmp_path / "utf8.txt").write_bytes(text.encode())
+    (tmp_path / "utf16.txt").write_bytes(("\ufeff" + text).encode(order))
+    expected, log = read_log(tmp_path / "utf8.txt"), read_log(tmp_path / "utf16.txt")
+    for own, other in zip(
+        whole_rows(log).channels().values(), whole_rows(expected).channels().values(), strict=True
+    ):
+        np.testing.assert_array_equal(own, other)
+    said = log.defects[0].statement
+    assert said.replace("the text read as UTF-16; ", "") == expected.defects[0].statement != said
+
+
+@pytest.mark.parametrize("bytes_more", range(4))
+def test_text_in_utf_16_that_ends_within_a_character_loses_no_row_before(bytes_more, tmp_path):
+    whole = ("\ufeff" + "\n".join([*lines(), "12.0"])).encode("utf-16-le")
+    path = tmp_path / "log.csv"
+    path.write_bytes(whole[: len(whole) - bytes_more])
+    assert read_log(path).samples == len(ROWS)
+
+
+@pytest.mark.parametrize(
+    ("encoding", "cause"),
+    [
+        ("utf-16-le", r"UTF-16 text \(lower byte first\) without a byte order mark"),
+        ("utf-16-be", r"UTF-16 text \(upper byte first\) without a byte order mark"),
+        ("utf-32", "UTF-32 text"),
+        ("utf-32-le", "NUL bytes"),
+    ],
+)
+def test_text_in_an_encoding_that_is_not_read_is_refused_with_its_name(encoding, cause, tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_bytes("\n".join(["Prüfstand 3", *lines()]).encode(encoding))
+    with pytest.raises(LogError, match=cause) as refusal:
+        read_log(path)
+    assert "UTF-8" in refusal.value.remedy or encoding == "utf-32-le"
+
+
+def test_halves_of_characters_deep_in_utf_16_are_refused_by_their_place(tmp_path):
+    whole = ("\ufeff" + "\n".join(lines())).encode("utf-16-le")
+    path = tmp_path / "log.csv"
+    path.write_bytes(whole[:60_000] + b"\x00\xd8" + whole[60_000:])
+    with pytest.raises(LogError, match="not UTF-16") as refusal:
+        read_log(path)
+    assert refusal.value.evidence["byte"] == 60_000
+
+
+@pytest.mark.parametrize(("text", "what"), [("{}", "JSON"), ("<a/>", "XML"), ("a,\0", "NUL")])
+def test_what_is_no_table_in_utf_8_is_none_in_utf_16(text, what, tmp_path):
+    (tmp_path / "upload").write_bytes((text * 20).encode("utf-16"))
+    with pytest.raises(LogError, match=what):
+        read_log(tmp_path / "upload")

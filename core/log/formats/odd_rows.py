@@ -1,0 +1,160 @@
+"""Find the rows of a text table that have more or fewer cells than it has columns.
+
+A recorder that is killed leaves half a row, and a serial line loses bytes. The cells of such a row may be
+those of other columns, so that none is used. It is read as a row of blanks: a log without a clock keeps its
+time, and rows without values are found and left out later. One at the very end is left out here.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ...errors import LogError
+from ..defects.stretch import count_text
+from .arrow import words_for_nothing
+from .text_bytes import open_utf8
+from .text_header import BLANKS, TextHeader, is_number, split_cells
+
+BLOCK_BYTES = 1 << 20
+MOST_ODD = 0.01
+"""Up to this share of the rows may be of another length, as of those that are out of order; a cut last row
+always may. Damage is rare. Where rows differ often, they have decimal commas or other columns for a time, and
+those of the right length cannot be trusted either."""
+SHOWN_LINES = 20
+_NOTHING = frozenset(word.strip() for word in words_for_nothing())
+
+
+@dataclass(frozen=True)
+class OddRows:
+    """Name the lines that hold no whole row, by their numbers from 1."""
+
+    blank: tuple[int, ...] = ()
+    """Lines between the first row and the last."""
+    cut: int = 0
+    """The last line, if it is cut short or otherwise no row; else 0."""
+
+    def notes(self) -> Iterator[str]:
+        """Say which rows are not read."""
+        if self.blank:
+            shown = ", ".join(map(str, self.blank[:SHOWN_LINES]))
+            more = ", ..." if len(self.blank) > SHOWN_LINES else ""
+            yield (
+                f"{count_text(len(self.blank), 'row')} with another number of cells than there are columns "
+                f"read as blank (line{'s' if len(self.blank) > 1 else ''} {shown}{more})"
+            )
+        if self.cut:
+            yield f"the last row, cut short, left out (line {self.cut})"
+
+
+def find_odd_rows(path: Path, encoding: str, found: TextHeader) -> OddRows:
+    """Find the rows that do not have a cell for every column.
+
+    Raises
+    ------
+    LogError
+        If they are more than a few.
+    """
+    seen = _Rows(found)
+    enough = MOST_ODD * path.stat().st_size / found.width  # a cell takes a byte at least
+    for lines in _blocks(path, encoding):
+        seen.take(lines)
+        if len(seen.odd) > enough:
+            break
+    cut = seen.last_line if seen.odd[-1:] == [seen.last_line] or _breaks_off(seen.last, found) else 0
+    blank = tuple(line for line in seen.odd if line != cut)
+    if len(blank) > MOST_ODD * seen.rows:
+        raise _too_many(seen, found)
+    return OddRows(blank, cut)
+
+
+def _blocks(path: Path, encoding: str) -> Iterator[list[bytes]]:
+    """Give the lines of a file, some thousand at a time."""
+    rest = b""
+    with open_utf8(path, encoding) as stream:
+        while block := stream.read(BLOCK_BYTES):
+            *lines, rest = (rest + block).splitlines(keepends=True)  # the last may go on
+            yield lines
+    yield [rest] if rest else []
+
+
+@dataclass
+class _Rows:
+    """Count the rows of a table, and gather those of another length."""
+
+    table: TextHeader
+    rows: int = 0
+    odd: list[int] = field(default_factory=list)
+    """Their lines."""
+    first: bytes = b""
+    """The first of them."""
+    last: bytes = b""
+    """The last line that is not empty."""
+    last_line: int = 0
+    _lines: int = 0
+
+    def take(self, lines: Sequence[bytes]) -> None:
+        """Take the next lines of the file."""
+        begin = max(self.table.skip - self._lines, 0)
+        self.rows += len(lines[begin:])
+        for place in self._doubtful(lines):
+            line = lines[place]
+            if place < begin or _is_no_row(line):
+                self.rows -= place >= begin
+            elif not _is_whole(line, self.table):
+                self.first = self.first or line
+                self.odd.append(self._lines + place + 1)
+        filled = next((place for place in reversed(range(begin, len(lines))) if lines[place].strip()), None)
+        if filled is not None:
+            self.last, self.last_line = lines[filled], self._lines + filled + 1
+        self._lines += len(lines)
+
+    def _doubtful(self, lines: Sequence[bytes]) -> Sequence[int]:
+        """Leave out the lines that have as many separators as a row, and no quotation."""
+        if self.table.delimiter == BLANKS:
+            return range(len(lines))
+        mark, most = self.table.delimiter.encode(), self.table.width - 1
+        return [place for place, line in enumerate(lines) if line.count(mark) != most or b'"' in line]
+
+
+def _is_no_row(line: bytes) -> bool:
+    return line in (b"\n", b"\r\n", b"\r") or line.lstrip().startswith(b"#")
+
+
+def _is_whole(line: bytes, table: TextHeader) -> bool:
+    """Tell whether a line has a cell for every column, and no quotation that would go on in the next one."""
+    if line.count(b'"') % 2:
+        return False
+    cells = line.split() if table.delimiter == BLANKS else _cells(line, table)
+    return len(cells) == table.width
+
+
+def _breaks_off(line: bytes, table: TextHeader) -> bool:
+    """Tell whether a last line ends within a number, as in `1.5e-`."""
+    if line.endswith((b"\n", b"\r")) or not is_number(split_cells(table.first_row, table.delimiter)[-1]):
+        return False
+    cell = _cells(line, table)[-1]
+    return not is_number(cell) and cell not in _NOTHING
+
+
+def _cells(line: bytes, table: TextHeader) -> list[str]:
+    return split_cells(line.decode("utf-8", "replace").strip("\r\n"), table.delimiter)
+
+
+def _too_many(seen: _Rows, table: TextHeader) -> LogError:
+    cells, text = _cells(seen.first, table), seen.first.decode("utf-8", "replace").strip()
+    commas = len(cells) > table.width and table.delimiter == "," and "." not in text
+    hint = ": the numbers seem to have decimal commas" if commas else ""
+    return LogError(
+        f"line {seen.odd[0]} holds {len(cells)} cells, and the header names {table.width} columns{hint}; "
+        f"{len(seen.odd)} of {seen.rows} rows are of another length",
+        evidence={
+            "lines": seen.odd[:SHOWN_LINES],
+            "text": text[:120],
+            "rows_of_another_length": len(seen.odd),
+            "rows": seen.rows,
+            "accepted_share": MOST_ODD,
+        },
+        remedy="write decimal points, or keep the decimal commas and separate the columns by semicolons"
+        if commas
+        else "write one cell per column in every row, and rows of other columns to a file of their own",
+    )
