@@ -87,8 +87,8 @@ def family(
     count = np.array([float(max(measured.shape[1], 1)) for measured in torque])
     shape = joints, len(parts), size
     return RegressorFamily(
-        products.reshape(*shape, *shape[1:]).transpose(1, 3, 0, 2, 4),
-        moments.reshape(*shape, channels).transpose(1, 0, 3, 2),
+        np.einsum("jpcqd->pqjcd", products.reshape(*shape, *shape[1:])),
+        np.einsum("jpct->pjtc", moments.reshape(*shape, channels)),
         squares,
         torques,
         count,

@@ -15,7 +15,7 @@ from .path import FoundConflict, Margins, Path, cost
 from .refinement import refined
 from .setup import Setup
 from .steps import Steps, first_steps
-from .thresholds import DOUBT, TRIAL
+from .thresholds import DECISION, DOUBT, TRIAL
 from .trial import Outcome, Trials
 
 
@@ -34,8 +34,8 @@ class _Search:
     _known: list[tuple[Outcome, int, Path]] = field(default_factory=list)
     """What was gone on from, with how many corrections at most, and where it led."""
 
-    def path(self, setup: Setup, present: Outcome, most: int) -> Path:
-        """Give the corrections that lead on from a set-up.
+    def path(self, setup: Setup, present: Outcome, most: int, reach: float = np.inf) -> Path:
+        """Give the corrections that lead on from a set-up; a last one has to come near a score to count.
 
         Several wrong ones may undo each other: a mirrored robot moves under mirrored gravity as the true one
         does. So paths are compared by their last error, to which each correction adds what one has to gain.
@@ -45,21 +45,21 @@ class _Search:
         for outcome, tried, path in self._known:
             if len(path) <= most <= tried and outcome.is_like(present):
                 return path
-        path = self._path(setup, present, most)
+        path = self._path(setup, present, most, reach)
         self._known.append((present, most, path))
         return path
 
-    def _path(self, setup: Setup, present: Outcome, most: int) -> Path:
-        steps = first_steps(setup, present, self.trials)
-        paths = list(self._best(steps, most))
+    def _path(self, setup: Setup, present: Outcome, most: int, reach: float) -> Path:
+        steps = first_steps(setup, present, self.trials, reach if most == 1 else np.inf)
+        paths = list(self._best(steps, most, reach))
         if most == TRIAL.most_corrections:
             paths += self._alternatives(steps, paths)
         return _chosen(paths, len(steps.best), Margins.of(present, self.trials)) if paths else ()
 
-    def _best(self, steps: Steps, most: int) -> Iterator[Path]:
+    def _best(self, steps: Steps, most: int, reach: float) -> Iterator[Path]:
         """Go on from each of the best; only from the first where that is all."""
         for step in _apart(steps.best):
-            path = self._from(step, most)
+            path = self._from(step, most, reach)
             yield path
             if step is steps.best[0] and len(path) == 1 and not _is_poor(step.after):
                 return
@@ -68,10 +68,11 @@ class _Search:
         """Go on from the next best where all paths leave a joint in doubt, or take several corrections."""
         unsure = all(len(path) > 1 or _is_poor(path[-1].after) for path in paths)
         for step in steps.alternatives(self.trials) if unsure and paths else ():
-            yield self._from(step, TRIAL.most_corrections)
+            yield self._from(step, TRIAL.most_corrections, min(map(cost, paths)))
 
-    def _from(self, step: FoundConflict, most: int) -> Path:
-        return (step, *self.path(step.hypothesis.setup, step.after, most - 1))
+    def _from(self, step: FoundConflict, most: int, reach: float) -> Path:
+        left = reach - DECISION.least_gain * (not step.hypothesis.expected)
+        return (step, *self.path(step.hypothesis.setup, step.after, most - 1, left))
 
 
 def _apart(steps: Path) -> Path:

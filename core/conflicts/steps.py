@@ -75,12 +75,15 @@ class Steps:
         return min(_better(filter(None, tried), self._present, self._needed), key=_score, default=None)
 
 
-def first_steps(setup: Setup, present: Outcome, trials: Trials) -> Steps:
-    """Try every hypothesis, and sort those that predict better than the set-up by more than chance."""
+def first_steps(setup: Setup, present: Outcome, trials: Trials, reach: float = np.inf) -> Steps:
+    """Try every hypothesis, and sort those that predict better than the set-up by more than chance.
+
+    Those that cannot come near the score that they have to reach are not fitted.
+    """
     listed = _bounded(setup, trials)
     margins = Margins.of(present, trials)
     needed = margins.needed(len(listed))
-    tried = _tried(listed, present, trials, needed)
+    tried = _tried(listed, present, trials, needed, reach)
     better = _better(tried, present, needed)
     best = min(map(_score, better), default=present.score)
     near = [own for own in better if own.score < best + margins.undecided]
@@ -109,10 +112,12 @@ def _by_motion(equations: list[Equations]) -> Iterable[list[int]]:
     return places.values()
 
 
-def _tried(listed: list[_Bounded], present: Outcome, trials: Trials, needed: float) -> list[_Tried]:
+def _tried(
+    listed: list[_Bounded], present: Outcome, trials: Trials, needed: float, reach: float
+) -> list[_Tried]:
     """Fit those that can still win, best bound first; give them in order of preference."""
     tried: list[tuple[int, _Tried]] = []
-    best = present.fitted
+    best = min(present.fitted, reach)
     for place, candidate in sorted(enumerate(listed), key=lambda pair: pair[1].bound):
         if candidate.bound > best + DECISION.least_gain:
             break

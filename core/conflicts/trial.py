@@ -22,7 +22,7 @@ from ..reduction.base import BaseModel, base_model
 from ..regressor.columns import ColumnPlan
 from ..robot.model import Link, RobotModel
 from .equations import Equations, Regressor, Rows
-from .family import family
+from .family import RegressorFamily, family
 from .normal import condensed
 from .reduced import mean_log
 from .samples import Samples
@@ -59,9 +59,8 @@ class Outcome:
 
 @dataclass(frozen=True, eq=False)
 class _Grouped:
-    """Hold the base parameters of a table; it keeps its links, so that no other has their identity."""
+    """Hold the base parameters of a table, and the columns that they are of."""
 
-    links: tuple[Link, ...]
     base: BaseModel
     plan: ColumnPlan
 
@@ -72,9 +71,10 @@ class Trials:
 
     samples: Samples
     terms: tuple[str, ...] | None = None
-    _bases: dict[int, _Grouped] = field(default_factory=dict)
+    _bases: dict[tuple[Link, ...], _Grouped] = field(default_factory=dict)
     _regressors: dict[tuple[object, ...], Regressor] = field(default_factory=dict)
-    _links: dict[tuple[object, ...], tuple[tuple[Link, ...], tuple[Link, ...]]] = field(default_factory=dict)
+    _families: dict[tuple[object, ...], RegressorFamily] = field(default_factory=dict)
+    _links: dict[tuple[object, ...], tuple[Link, ...]] = field(default_factory=dict)
 
     @cached_property
     def _fitted(self) -> Samples:
@@ -86,8 +86,7 @@ class Trials:
 
     def equations(self, setup: Setup) -> Equations:
         """Write down the equations of a set-up."""
-        assignment = setup.assignment
-        key = id(setup.robot.links), tuple(setup.robot.gravity), assignment.position, assignment.time_factor
+        key = _motion_key(setup)
         if key not in self._regressors:
             self._regressors[key] = self._regressor(setup)
         return Equations(self._regressors[key], setup.assignment.torque)
@@ -110,17 +109,23 @@ class Trials:
 
     def under_gravity(self, setup: Setup) -> Callable[[np.ndarray], np.ndarray]:
         """Give the bound as a function of gravity in the base frame, m/s2, in which torque is linear."""
-        plan = self._base(setup.robot).plan
-        directions = np.vstack([np.zeros(3), np.eye(3)])
-        none, *others = (self._rows(plan, setup.with_gravity(direction)) for direction in directions)
-        parts = [none.columns, *(_difference(own, none) for own in others)]
-        shared = family(parts, plan.columns_of, none.measured)
+        key = _motion_key(setup.with_gravity(np.zeros(3)))
+        if key not in self._families:
+            self._families[key] = self._gravities(setup)
+        shared = self._families[key]
 
         def bound(gravity: np.ndarray) -> np.ndarray:
             coordinates = np.concatenate([np.ones_like(gravity[..., :1]), gravity], axis=-1)
             return shared.at(coordinates).read(setup.assignment.torque).bound
 
         return bound
+
+    def _gravities(self, setup: Setup) -> RegressorFamily:
+        plan = self._base(setup.robot).plan
+        directions = np.vstack([np.zeros(3), np.eye(3)])
+        none, *others = (self._rows(plan, setup.with_gravity(direction)) for direction in directions)
+        parts = [none.columns, *(_difference(own, none) for own in others)]
+        return family(parts, plan.columns_of, none.measured)
 
     def along_length(
         self, setup: Setup, general: tuple[Link, ...], changed: Callable[[float], tuple[Link, ...]]
@@ -129,15 +134,11 @@ class Trials:
 
         Base parameters for lengths that are all `general` span those of any others.
         """
-        plan = self._base(replace(setup.robot, links=general)).plan
-        less, same, more = (
-            self._rows(plan, setup.with_links(links))
-            for links in (changed(-_STEP), setup.robot.links, changed(_STEP))
-        )
-        slope = [own / (2.0 * _STEP) for own in _difference(more, less)]
-        rises = zip(_difference(more, same), _difference(same, less), strict=True)
-        curve = [(later - earlier) / (2.0 * _STEP**2) for later, earlier in rises]
-        shared = family([same.columns, slope, curve], plan.columns_of, same.measured)
+        less, more = (setup.with_links(changed(change)) for change in (-_STEP, _STEP))
+        key = *_motion_key(setup), more.robot.links
+        if key not in self._families:
+            self._families[key] = self._lengths(less, setup, more, general)
+        shared = self._families[key]
 
         def bound(errors: np.ndarray) -> np.ndarray:
             coordinates = np.stack([np.ones_like(errors), errors, errors**2], axis=-1)
@@ -145,14 +146,22 @@ class Trials:
 
         return bound
 
+    def _lengths(self, less: Setup, same: Setup, more: Setup, general: tuple[Link, ...]) -> RegressorFamily:
+        plan = self._base(replace(same.robot, links=general)).plan
+        shorter, present, longer = (self._rows(plan, setup) for setup in (less, same, more))
+        slope = [own / (2.0 * _STEP) for own in _difference(longer, shorter)]
+        rises = zip(_difference(longer, present), _difference(present, shorter), strict=True)
+        curve = [(later - earlier) / (2.0 * _STEP**2) for later, earlier in rises]
+        return family([present.columns, slope, curve], plan.columns_of, present.measured)
+
     def links(
         self, setup: Setup, change: tuple[object, ...], changed: Callable[[], tuple[Link, ...]]
     ) -> tuple[Link, ...]:
         """Give the links of a set-up after a change, the same ones again: what is known of them is kept."""
-        key = id(setup.robot.links), *change
+        key = setup.robot.links, *change
         if key not in self._links:
-            self._links[key] = setup.robot.links, changed()
-        return self._links[key][1]
+            self._links[key] = changed()
+        return self._links[key]
 
     def _regressor(self, setup: Setup) -> Regressor:
         grouped = self._base(setup.robot)
@@ -171,11 +180,17 @@ class Trials:
 
     def _base(self, robot: RobotModel) -> _Grouped:
         """Group the parameters for any direction of gravity, once per table."""
-        if id(robot.links) not in self._bases:
+        if robot.links not in self._bases:
             general = replace(robot, gravity=9.81 * _GENERAL / np.linalg.norm(_GENERAL))
             base = base_model(standard_model(general, self.terms))
-            self._bases[id(robot.links)] = _Grouped(robot.links, base, ColumnPlan(base.model, base.kept))
-        return self._bases[id(robot.links)]
+            self._bases[robot.links] = _Grouped(base, ColumnPlan(base.model, base.kept))
+        return self._bases[robot.links]
+
+
+def _motion_key(setup: Setup) -> tuple[object, ...]:
+    """Tell set-ups of one motion, whose torques alone may differ."""
+    assignment = setup.assignment
+    return setup.robot.links, tuple(setup.robot.gravity), assignment.position, assignment.time_factor
 
 
 def _difference(rows: Rows, others: Rows) -> list[Series]:
