@@ -100,15 +100,12 @@ class Reduced:
 
 
 def stacked(several: Sequence[Reduced]) -> Reduced:
-    """Put set-ups with the same columns side by side; those of one motion share its products."""
-    first = several[0]
-    shared = all(own.products is first.products for own in several)
-    return Reduced(
-        first.products if shared else np.stack([own.products for own in several]),
-        np.stack([own.moments for own in several]),
-        np.stack([own.squares for own in several]),
-        np.stack([own.torques for own in several]),
-        first.rows if shared else np.stack([own.rows for own in several]),
+    """Put set-ups of one motion side by side, which share its products."""
+    return replace(
+        several[0],
+        moments=np.stack([own.moments for own in several]),
+        squares=np.stack([own.squares for own in several]),
+        torques=np.stack([own.torques for own in several]),
     )
 
 
