@@ -51,10 +51,11 @@ def check(
     problem = fit.problem
     trials = Trials(sampled(problem.motions, problem.held_out), terms)
     described = Setup.as_described(problem.base.model.robot)
-    found = find_conflicts(described, trials)
     factor = next((factor for factor in factors if factor is not None), None)
-    if found and factor is not None:
-        found = _alike(found, find_conflicts(described.with_clock(1.0 / factor), trials))
+    if factor is None:
+        return Conflicts(find_conflicts(described, trials), factors)
+    by_velocity = find_conflicts(described.with_clock(1.0 / factor), trials)
+    found = _alike(find_conflicts(described, trials), by_velocity) if by_velocity else ()
     return Conflicts(found, factors)
 
 

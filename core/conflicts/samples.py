@@ -31,19 +31,23 @@ class Samples:
     """Number of independent values of a joint among the rows that are judged: what a model leaves varies as
     the motion does, twice its band per second."""
 
-    def read(self, assignment: Assignment) -> "Samples":
-        """Read the channels as an assignment does."""
-        position, torque = assignment.position, assignment.torque
+    def moved(self, assignment: Assignment) -> "Samples":
+        """Read the motion as an assignment does; torques stay as measured."""
+        position = assignment.position
         speed = 1.0 / assignment.time_factor
         return replace(
             self,
             position=position.of(self.position),
             velocity=position.of(self.velocity, rate=True) * speed,
             acceleration=position.of(self.acceleration, rate=True) * speed**2,
-            torque=torque.of(self.torque),
             direction=np.sign(position.factor) * self.direction[:, list(position.source)],
             usable=self.usable[:, list(position.source)],
         )
+
+    def at(self, wanted: SampleMask) -> "Samples":
+        """Keep some of the instants."""
+        series = "position", "velocity", "acceleration", "torque", "direction", "usable", "judged"
+        return replace(self, **{name: getattr(self, name)[wanted] for name in series})
 
     @property
     def state(self) -> MotionState:

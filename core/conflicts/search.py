@@ -5,7 +5,7 @@ number explain. Where several are best, it goes on from each, and the fewest cor
 """
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -15,39 +15,64 @@ from .path import FoundConflict, Margins, Path, cost
 from .refinement import refined
 from .setup import Setup
 from .steps import Steps, first_steps
-from .thresholds import DOUBT, TRIAL
+from .thresholds import DECISION, DOUBT, TRIAL
 from .trial import Outcome, Trials
 
 
 def find_conflicts(setup: Setup, trials: Trials) -> Path:
     """Search for corrections of a set-up, one after the other; the last one's set-up holds them all."""
     present = trials.outcome(trials.equations(setup))
-    path = () if present is None else _path(setup, present, trials, TRIAL.most_corrections)
+    path = () if present is None else _Search(trials).path(setup, present, TRIAL.most_corrections)
     return refined(path, setup, trials)
 
 
-def _path(setup: Setup, present: Outcome, trials: Trials, most: int) -> Path:
-    """Give the corrections that lead on from a set-up.
+@dataclass(frozen=True, eq=False)
+class _Search:
+    """Go on from set-ups; from those that predict alike once, as they are the same robot said otherwise."""
 
-    Several wrong ones may undo each other: a mirrored robot moves under mirrored gravity as the true one
-    does. So paths are compared by their last error, to which each correction adds what one has to gain.
-    """
-    if not most:
-        return ()
-    steps = first_steps(setup, present, trials)
-    paths = list(_best(steps, trials, most))
-    if most == TRIAL.most_corrections:
-        paths += _alternatives(steps, paths, trials)
-    return _chosen(paths, len(steps.best), Margins.of(present, trials)) if paths else ()
+    trials: Trials
+    _known: list[tuple[Outcome, int, Path]] = field(default_factory=list)
+    """What was gone on from, with how many corrections at most, and where it led."""
 
+    def path(self, setup: Setup, present: Outcome, most: int, reach: float = np.inf) -> Path:
+        """Give the corrections that lead on from a set-up; a last one has to come near a score to count.
 
-def _best(steps: Steps, trials: Trials, most: int) -> Iterator[Path]:
-    """Go on from each of the best; only from the first where that is all."""
-    for step in _apart(steps.best):
-        path = _from(step, trials, most)
-        yield path
-        if step is steps.best[0] and len(path) == 1 and not _is_poor(step.after):
-            return
+        Several wrong ones may undo each other: a mirrored robot moves under mirrored gravity as the true one
+        does. So paths are compared by their last error, to which each correction adds what one has to gain.
+        """
+        if not most:
+            return ()
+        for outcome, tried, path in self._known:
+            if len(path) <= most <= tried and outcome.is_like(present):
+                return path
+        path = self._path(setup, present, most, reach)
+        self._known.append((present, most, path))
+        return path
+
+    def _path(self, setup: Setup, present: Outcome, most: int, reach: float) -> Path:
+        steps = first_steps(setup, present, self.trials, reach if most == 1 else np.inf)
+        paths = list(self._best(steps, most, reach))
+        if most == TRIAL.most_corrections:
+            paths += self._alternatives(steps, paths)
+        return _chosen(paths, len(steps.best), Margins.of(present, self.trials)) if paths else ()
+
+    def _best(self, steps: Steps, most: int, reach: float) -> Iterator[Path]:
+        """Go on from each of the best; only from the first where that is all."""
+        for step in _apart(steps.best):
+            path = self._from(step, most, reach)
+            yield path
+            if step is steps.best[0] and len(path) == 1 and not _is_poor(step.after):
+                return
+
+    def _alternatives(self, steps: Steps, paths: list[Path]) -> Iterator[Path]:
+        """Go on from the next best where all paths leave a joint in doubt, or take several corrections."""
+        unsure = all(len(path) > 1 or _is_poor(path[-1].after) for path in paths)
+        for step in steps.alternatives(self.trials) if unsure and paths else ():
+            yield self._from(step, TRIAL.most_corrections, min(map(cost, paths)))
+
+    def _from(self, step: FoundConflict, most: int, reach: float) -> Path:
+        left = reach - DECISION.least_gain * (not step.hypothesis.expected)
+        return (step, *self.path(step.hypothesis.setup, step.after, most - 1, left))
 
 
 def _apart(steps: Path) -> Path:
@@ -58,17 +83,6 @@ def _apart(steps: Path) -> Path:
         for step in steps
         if step.hypothesis.conflict != GearRatio.name or step.hypothesis.key[1:] not in units
     )
-
-
-def _alternatives(steps: Steps, paths: list[Path], trials: Trials) -> Iterator[Path]:
-    """Go on from the next best where all paths leave a joint in doubt, or take several corrections."""
-    unsure = all(len(path) > 1 or _is_poor(path[-1].after) for path in paths)
-    for step in steps.alternatives(trials) if unsure and paths else ():
-        yield _from(step, trials, TRIAL.most_corrections)
-
-
-def _from(step: FoundConflict, trials: Trials, most: int) -> Path:
-    return (step, *_path(step.hypothesis.setup, step.after, trials, most - 1))
 
 
 def _is_poor(outcome: Outcome) -> bool:

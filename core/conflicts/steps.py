@@ -10,11 +10,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from .conflict import Hypothesis
+from .equations import Equations
+from .kinds.gear_ratio import GearRatio
+from .kinds.unit import Unit
 from .path import FoundConflict, Margins, Path
+from .reduced import stacked
 from .registry import CONFLICTS
 from .setup import Setup
 from .thresholds import DECISION, TRIAL
-from .trial import Equations, Outcome, Trials
+from .trial import Outcome, Trials
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,15 +54,17 @@ class Steps:
     _needed: float
 
     def alternatives(self, trials: Trials) -> Path:
-        """Give the next best, one of each kind: one error may mask another.
+        """Give the next best, one of each kind and factor: one error may mask another.
 
         The right first step is then not the best, and need not have been fitted for the best to be found.
         """
-        taken = {step.hypothesis.key for step in self.best}
-        others = [own for own in self._listed if own.hypothesis.key not in taken]
+        taken = {_subject(step.hypothesis) for step in self.best}
+        others = [own for own in self._listed if _subject(own.hypothesis) not in taken]
         best = [self._best_of(kind, others, trials) for kind in CONFLICTS]
         ranked = sorted((own for own in best if own is not None), key=_score)[: TRIAL.alternatives]
-        return tuple(own.step(self._present, self.best[0].confidence, []) for own in ranked)
+        first = {_subject(own.hypothesis): own for own in reversed(ranked)}
+        apart = [own for own in ranked if first[_subject(own.hypothesis)] is own]
+        return tuple(own.step(self._present, self.best[0].confidence, []) for own in apart)
 
     def _best_of(self, kind: str, others: Sequence[_Bounded], trials: Trials) -> _Tried | None:
         """Give the hypothesis of one kind that predicts best, if better than the set-up."""
@@ -69,12 +75,15 @@ class Steps:
         return min(_better(filter(None, tried), self._present, self._needed), key=_score, default=None)
 
 
-def first_steps(setup: Setup, present: Outcome, trials: Trials) -> Steps:
-    """Try every hypothesis, and sort those that predict better than the set-up by more than chance."""
+def first_steps(setup: Setup, present: Outcome, trials: Trials, reach: float = np.inf) -> Steps:
+    """Try every hypothesis, and sort those that predict better than the set-up by more than chance.
+
+    Those that cannot come near the score that they have to reach are not fitted.
+    """
     listed = _bounded(setup, trials)
     margins = Margins.of(present, trials)
     needed = margins.needed(len(listed))
-    tried = _tried(listed, present, trials, needed)
+    tried = _tried(listed, present, trials, needed, reach)
     better = _better(tried, present, needed)
     best = min(map(_score, better), default=present.score)
     near = [own for own in better if own.score < best + margins.undecided]
@@ -87,18 +96,28 @@ def first_steps(setup: Setup, present: Outcome, trials: Trials) -> Steps:
 
 def _bounded(setup: Setup, trials: Trials) -> list[_Bounded]:
     """List every hypothesis with its bound, in order of preference."""
-    listed = []
-    for conflict in CONFLICTS.values():
-        for hypothesis in conflict.hypotheses(setup, trials):
-            equations = trials.equations(hypothesis.setup)
-            listed.append(_Bounded(hypothesis, equations, equations.normal.bound))
-    return listed
+    listed = [own for conflict in CONFLICTS.values() for own in conflict.hypotheses(setup, trials)]
+    equations = [trials.equations(hypothesis.setup) for hypothesis in listed]
+    bounds = np.zeros(len(listed))
+    for alike in _by_motion(equations):
+        bounds[alike] = stacked([equations[place].reduced for place in alike]).bound
+    return [_Bounded(*parts) for parts in zip(listed, equations, bounds.tolist(), strict=True)]
 
 
-def _tried(listed: list[_Bounded], present: Outcome, trials: Trials, needed: float) -> list[_Tried]:
+def _by_motion(equations: list[Equations]) -> Iterable[list[int]]:
+    """Give the places of those with one motion together."""
+    places: dict[int, list[int]] = {}
+    for place, own in enumerate(equations):
+        places.setdefault(id(own.regressor), []).append(place)
+    return places.values()
+
+
+def _tried(
+    listed: list[_Bounded], present: Outcome, trials: Trials, needed: float, reach: float
+) -> list[_Tried]:
     """Fit those that can still win, best bound first; give them in order of preference."""
     tried: list[tuple[int, _Tried]] = []
-    best = present.fitted
+    best = min(present.fitted, reach)
     for place, candidate in sorted(enumerate(listed), key=lambda pair: pair[1].bound):
         if candidate.bound > best + DECISION.least_gain:
             break
@@ -130,6 +149,12 @@ def _try(candidate: _Bounded, trials: Trials, needed: float) -> _Tried | None:
 def _better(tried: Iterable[_Tried], present: Outcome, needed: float) -> list[_Tried]:
     """Give those that predict better than a set-up by more than chance."""
     return [own for own in tried if own.score <= present.score - needed]
+
+
+def _subject(hypothesis: Hypothesis) -> tuple[object, ...]:
+    """Give what is corrected: whether by a unit or a ratio, a factor of a torque leads on alike."""
+    factor = hypothesis.conflict in {Unit.name, GearRatio.name}
+    return "factor" if factor else hypothesis.conflict, *hypothesis.key[1:]
 
 
 def _bound(candidate: _Bounded) -> float:

@@ -25,6 +25,8 @@ class Trial:
     """Of the fitted blocks, each of this number judges and is not fitted."""
     least_error: float = 1e-4
     """Error relative to the RMS torque below which a joint cannot become better."""
+    alike: float = 1e-3
+    """Relative difference of all joints' errors up to which two set-ups are the same robot said otherwise."""
     most_corrections: int = 3
     """Conflicts in one set-up."""
     alternatives: int = 3

@@ -2,7 +2,7 @@
 
 Signs and exchanged channels hardly change plain least squares. They change whether a body is possible, so
 that only the feasible fit tells them. The instants are few and the question is coarse, so that the equations
-are kept as products W'W and W'y, which set-ups with the same motion share.
+are kept as products, which set-ups with the same motion share.
 """
 
 from collections.abc import Callable
@@ -11,65 +11,28 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import BaseParameters, Indices, JointVector, Matrix, SampleMask, Series, Vector, Vector3
+from ..arrays import JointVector, Series
 from ..dynamics.model import standard_model
 from ..dynamics.terms.coulomb import Coulomb
 from ..errors import SolverError
 from ..estimate.constraints import Bounds, default_prior
-from ..estimate.estimate import solve
 from ..estimate.programme import Programme
+from ..estimate.with_clarabel import solve_with_clarabel
 from ..reduction.base import BaseModel, base_model
 from ..regressor.columns import ColumnPlan
 from ..robot.model import Link, RobotModel
-from .normal import Normal, crossed, mean_log, towards
+from .equations import Equations, Regressor, Rows
+from .family import RegressorFamily, family
+from .normal import condensed
+from .reduced import mean_log
 from .samples import Samples
 from .setup import Setup
+from .thresholds import TRIAL
 
 _GENERAL = np.array([0.37, -0.54, -0.75])
 """A direction of gravity along no axis: base parameters for it span those of any other direction."""
-
-
-@dataclass(frozen=True, eq=False)
-class Regressor:
-    """Hold the observation matrix of a set-up's motion, joint by joint."""
-
-    base: BaseModel
-    columns_of: tuple[Indices, ...]
-    fitted: tuple[Matrix, ...]
-    judged: tuple[Matrix, ...]
-
-    @cached_property
-    def products(self) -> np.ndarray:
-        """Give W'W of the fitted rows per joint."""
-        return crossed(self.fitted, self.fitted, self.columns_of, len(self.base.kept))
-
-
-@dataclass(frozen=True, eq=False)
-class Equations:
-    """Hold a set-up's equations: its regressor, and the torques of the fitted and of the judging rows."""
-
-    regressor: Regressor
-    fitted: tuple[Vector, ...]
-    judged: tuple[Vector, ...]
-
-    @cached_property
-    def normal(self) -> Normal:
-        """Give the products of the fitted rows."""
-        own = self.regressor
-        moments = towards(own.fitted, self.fitted, own.columns_of, len(own.base.kept))
-        return Normal(own.products, moments, *self.sizes)
-
-    @property
-    def sizes(self) -> tuple[JointVector, JointVector]:
-        """Give the squared torque and the number of the fitted rows per joint."""
-        squares = np.array([torque @ torque for torque in self.fitted])
-        return squares, np.array([float(max(len(torque), 1)) for torque in self.fitted])
-
-    def judged_errors(self, base: BaseParameters) -> JointVector:
-        """Give the same of the rows that judge; one for a joint without torque."""
-        parts = zip(self.regressor.judged, self.regressor.columns_of, self.judged, strict=True)
-        pairs = [(rows @ base[columns] - torque, torque) for rows, columns, torque in parts]
-        return np.array([_relative(left, torque) for left, torque in pairs])
+_STEP = 0.3
+"""Change of a length, m, on either side, from which the coefficients of a quadratic are taken."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +49,20 @@ class Outcome:
     @property
     def score(self) -> float:
         """Give the mean logarithm of the joints' errors."""
-        return mean_log(self.errors)
+        return float(mean_log(self.errors))
+
+    def is_like(self, other: "Outcome") -> bool:
+        """Tell whether two set-ups predict alike on every joint, with constraints and without."""
+        own, others = ([*outcome.errors, np.exp(outcome.bound)] for outcome in (self, other))
+        return bool(np.allclose(own, others, rtol=TRIAL.alike, atol=TRIAL.least_error))
+
+
+@dataclass(frozen=True, eq=False)
+class _Grouped:
+    """Hold the base parameters of a table, and the columns that they are of."""
+
+    base: BaseModel
+    plan: ColumnPlan
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,118 +71,127 @@ class Trials:
 
     samples: Samples
     terms: tuple[str, ...] | None = None
-    _bases: dict[int, tuple[tuple[Link, ...], BaseModel]] = field(default_factory=dict)
+    _bases: dict[tuple[Link, ...], _Grouped] = field(default_factory=dict)
     _regressors: dict[tuple[object, ...], Regressor] = field(default_factory=dict)
-    _plans: dict[tuple[object, ...], ColumnPlan] = field(default_factory=dict)
+    _families: dict[tuple[object, ...], RegressorFamily] = field(default_factory=dict)
     _links: dict[tuple[object, ...], tuple[Link, ...]] = field(default_factory=dict)
+
+    @cached_property
+    def _fitted(self) -> Samples:
+        return self.samples.at(~self.samples.judged)
+
+    @cached_property
+    def _judged(self) -> Samples:
+        return self.samples.at(self.samples.judged)
 
     def equations(self, setup: Setup) -> Equations:
         """Write down the equations of a set-up."""
-        regressor = self._regressor(setup)
-        samples = self.samples.read(setup.assignment)
-        fitted, judged = (
-            tuple(samples.torque[rows, joint] for joint, rows in enumerate(chosen))
-            for chosen in _chosen(samples)
-        )
-        return Equations(regressor, fitted, judged)
+        key = _motion_key(setup)
+        if key not in self._regressors:
+            self._regressors[key] = self._regressor(setup)
+        return Equations(self._regressors[key], setup.assignment.torque)
+
+    def outcome(self, equations: Equations) -> Outcome | None:
+        """Fit a set-up with its constraints; None where no accurate optimum is found."""
+        reduced, base, rows = equations.reduced, equations.regressor.base, equations.regressor.fitted
+        columns_of = equations.regressor.plan.columns_of
+        system = condensed(rows.columns, columns_of, rows.torque(equations.channels), reduced.noise)
+        prior = default_prior(base.model, np.sqrt(reduced.torques / reduced.rows))
+        try:
+            solution = solve_with_clarabel(
+                Programme(base, system, prior, Bounds(plausible=False)), coarse=True
+            )
+        except SolverError:
+            return None
+        values = base.base_of(solution.standard)
+        fitted = float(mean_log(equations.errors(values, judged=False)))
+        return Outcome(equations.errors(values, judged=True), fitted, float(reduced.bound))
+
+    def under_gravity(self, setup: Setup) -> Callable[[np.ndarray], np.ndarray]:
+        """Give the bound as a function of gravity in the base frame, m/s2, in which torque is linear."""
+        key = _motion_key(setup.with_gravity(np.zeros(3)))
+        if key not in self._families:
+            self._families[key] = self._gravities(setup)
+        shared = self._families[key]
+
+        def bound(gravity: np.ndarray) -> np.ndarray:
+            coordinates = np.concatenate([np.ones_like(gravity[..., :1]), gravity], axis=-1)
+            return shared.at(coordinates).read(setup.assignment.torque).bound
+
+        return bound
+
+    def _gravities(self, setup: Setup) -> RegressorFamily:
+        plan = self._base(setup.robot).plan
+        directions = np.vstack([np.zeros(3), np.eye(3)])
+        none, *others = (self._rows(plan, setup.with_gravity(direction)) for direction in directions)
+        parts = [none.columns, *(_difference(own, none) for own in others)]
+        return family(parts, plan.columns_of, none.measured)
+
+    def along_length(
+        self, setup: Setup, general: tuple[Link, ...], changed: Callable[[float], tuple[Link, ...]]
+    ) -> Callable[[np.ndarray], np.ndarray]:
+        """Give the bound as a function of a length's error, m, in which torque is quadratic.
+
+        Base parameters for lengths that are all `general` span those of any others.
+        """
+        less, more = (setup.with_links(changed(change)) for change in (-_STEP, _STEP))
+        key = *_motion_key(setup), more.robot.links
+        if key not in self._families:
+            self._families[key] = self._lengths(less, setup, more, general)
+        shared = self._families[key]
+
+        def bound(errors: np.ndarray) -> np.ndarray:
+            coordinates = np.stack([np.ones_like(errors), errors, errors**2], axis=-1)
+            return shared.at(coordinates).read(setup.assignment.torque).bound
+
+        return bound
+
+    def _lengths(self, less: Setup, same: Setup, more: Setup, general: tuple[Link, ...]) -> RegressorFamily:
+        plan = self._base(replace(same.robot, links=general)).plan
+        shorter, present, longer = (self._rows(plan, setup) for setup in (less, same, more))
+        slope = [own / (2.0 * _STEP) for own in _difference(longer, shorter)]
+        rises = zip(_difference(longer, present), _difference(present, shorter), strict=True)
+        curve = [(later - earlier) / (2.0 * _STEP**2) for later, earlier in rises]
+        return family([present.columns, slope, curve], plan.columns_of, present.measured)
 
     def links(
         self, setup: Setup, change: tuple[object, ...], changed: Callable[[], tuple[Link, ...]]
     ) -> tuple[Link, ...]:
         """Give the links of a set-up after a change, the same ones again: what is known of them is kept."""
-        self._base(setup.robot)
-        key = id(setup.robot.links), *change
+        key = setup.robot.links, *change
         if key not in self._links:
             self._links[key] = changed()
         return self._links[key]
 
-    def outcome(self, equations: Equations) -> Outcome | None:
-        """Fit a set-up with its constraints; None where no accurate optimum is found."""
-        normal, base = equations.normal, equations.regressor.base
-        prior = default_prior(base.model, np.sqrt(normal.squares / normal.rows))
-        try:
-            solution = solve(Programme(base, normal.system, prior, Bounds(plausible=False)), "clarabel")
-        except SolverError:
-            return None
-        values = base.base_of(solution.standard)
-        return Outcome(equations.judged_errors(values), mean_log(normal.errors(values)), normal.bound)
-
-    def bound_of_gravity(self, setup: Setup) -> Callable[[Vector3], float]:
-        """Give the bound as a function of gravity in the base frame, m/s2, in which torque is linear.
-
-        Products of the equations are quadratic in it, and are taken once.
-        """
-        parts = [self._series(setup.with_gravity(way)) for way in np.vstack([np.zeros(3), np.eye(3)])]
-        rows = [
-            self._of_series(setup, part).fitted
-            for part in (parts[0], *(part - parts[0] for part in parts[1:]))
-        ]
-        present, columns = self.equations(setup), self._plan(setup).columns_of
-        size = len(present.regressor.base.kept)
-        products = np.array([[crossed(own, other, columns, size) for other in rows] for own in rows])
-        moments = np.array([towards(own, present.fitted, columns, size) for own in rows])
-
-        def bound(gravity: Vector3) -> float:
-            ways = np.append(1.0, gravity)
-            whole = np.tensordot(np.outer(ways, ways), products, axes=2)
-            return Normal(whole, np.tensordot(ways, moments, axes=1), *present.sizes).bound
-
-        return bound
-
     def _regressor(self, setup: Setup) -> Regressor:
-        key = (*self._motion_key(setup), setup.assignment.position)
-        if key not in self._regressors:
-            self._regressors[key] = self._of_series(setup, self._series(setup))
-        return self._regressors[key]
+        grouped = self._base(setup.robot)
+        base = replace(grouped.base, model=replace(grouped.base.model, robot=setup.robot))
+        fitted = self._rows(grouped.plan, setup)
+        return Regressor(base, grouped.plan, fitted, lambda: self._rows(grouped.plan, setup, judged=True))
 
-    def _series(self, setup: Setup) -> Series:
-        plan, samples = self._plan(setup), self.samples.read(setup.assignment)
-        series = plan.series(samples.state)
+    def _rows(self, plan: ColumnPlan, setup: Setup, *, judged: bool = False) -> Rows:
+        samples = (self._judged if judged else self._fitted).moved(setup.assignment)
+        series = plan.series(samples.state, setup.robot)
         for row, (joint, column) in enumerate(plan.entries):
             if plan.model.parameters[plan.columns[column]].symbol == Coulomb.symbol[0]:
                 series[row] = samples.direction[:, joint]
-        return series
+        parts = zip(plan.rows_of, samples.usable.T, strict=True)
+        return Rows(tuple(series[rows][:, usable] for rows, usable in parts), samples)
 
-    def _of_series(self, setup: Setup, series: Series) -> Regressor:
-        plan, base = self._plan(setup), self._base(setup.robot)
-        chosen = _chosen(self.samples.read(setup.assignment))
-        fitted, judged = (
-            tuple(
-                np.ascontiguousarray(series[rows][:, picked].T)
-                for rows, picked in zip(plan.rows_of, marks, strict=True)
-            )
-            for marks in chosen
-        )
-        return Regressor(replace(base, model=plan.model), plan.columns_of, fitted, judged)
-
-    def _plan(self, setup: Setup) -> ColumnPlan:
-        key = self._motion_key(setup)
-        if key not in self._plans:
-            kept = self._base(setup.robot).kept
-            self._plans[key] = ColumnPlan(standard_model(setup.robot, self.terms), kept)
-        return self._plans[key]
-
-    def _base(self, robot: RobotModel) -> BaseModel:
+    def _base(self, robot: RobotModel) -> _Grouped:
         """Group the parameters for any direction of gravity, once per table."""
-        if id(robot.links) not in self._bases:
+        if robot.links not in self._bases:
             general = replace(robot, gravity=9.81 * _GENERAL / np.linalg.norm(_GENERAL))
-            self._bases[id(robot.links)] = robot.links, base_model(standard_model(general, self.terms))
-        return self._bases[id(robot.links)][1]
-
-    def _motion_key(self, setup: Setup) -> tuple[object, ...]:
-        self._base(setup.robot)  # keeps the links, so that no other has their identity
-        return id(setup.robot.links), tuple(setup.robot.gravity), setup.assignment.time_factor
+            base = base_model(standard_model(general, self.terms))
+            self._bases[robot.links] = _Grouped(base, ColumnPlan(base.model, base.kept))
+        return self._bases[robot.links]
 
 
-def _chosen(samples: Samples) -> tuple[tuple[Indices, ...], tuple[Indices, ...]]:
-    """Give the rows of every joint that are fitted, and those that judge."""
-    return _rows(samples, ~samples.judged), _rows(samples, samples.judged)
+def _motion_key(setup: Setup) -> tuple[object, ...]:
+    """Tell set-ups of one motion, whose torques alone may differ."""
+    assignment = setup.assignment
+    return setup.robot.links, tuple(setup.robot.gravity), assignment.position, assignment.time_factor
 
 
-def _rows(samples: Samples, wanted: SampleMask) -> tuple[Indices, ...]:
-    return tuple(np.flatnonzero(usable & wanted) for usable in samples.usable.T)
-
-
-def _relative(left: Vector, torque: Vector) -> float:
-    whole = float(torque @ torque)
-    return float(np.sqrt(left @ left / whole)) if whole > 0.0 else 1.0
+def _difference(rows: Rows, others: Rows) -> list[Series]:
+    return [own - other for own, other in zip(rows.columns, others.columns, strict=True)]

@@ -40,6 +40,11 @@ _ATTEMPTS = (
     (True, _COARSE, _CAREFUL),
 )
 """Statements tried until one is solved: whether columns are normalised, accuracy, largest step."""
+_COARSE_ATTEMPTS = ((True, _COARSE, _BOLD), (True, _COARSE, _CAREFUL))
+"""The same where many programmes are compared."""
+_PATIENCE, _COARSE_PATIENCE = 200, 60
+"""Iterations after which an attempt is given up, in the second case too: normalised programmes of measured
+arms took at most 36."""
 _SHORT_OF_ACCURACY = ("AlmostSolved", "InsufficientProgress", "NumericalError", "MaxIterations")
 _KINDS = {
     "PrimalInfeasible": "infeasible",
@@ -72,8 +77,8 @@ class Cones:
         self.kinds.append(kind)
 
 
-def solve_with_clarabel(programme: Programme) -> Solution:
-    """Solve the programme.
+def solve_with_clarabel(programme: Programme, *, coarse: bool = False) -> Solution:
+    """Solve the programme; coarsely where many are compared, and one that is hard to solve is no loss.
 
     Raises
     ------
@@ -95,7 +100,7 @@ def solve_with_clarabel(programme: Programme) -> Solution:
     pulled = -pull * programme.prior.centre / programme.prior.scale
     linear = np.concatenate([pulled, np.zeros(equations + dense)])
     norms = np.append(np.sqrt((misfit**2).sum(axis=0) + pull), np.ones(equations + dense))
-    answer, unit = _first_solved(cones, quadratic, linear, norms)
+    answer, unit = _first_solved(cones, quadratic, linear, norms, coarse=coarse)
     status = str(answer.status)
     if status != "Solved":
         raise refusal(
@@ -105,9 +110,13 @@ def solve_with_clarabel(programme: Programme) -> Solution:
     return Solution(standard, "optimal", int(answer.iterations), "clarabel", programme.bounds.margin)
 
 
-def _first_solved(cones: Cones, quadratic: Vector, linear: Vector, norms: Vector) -> tuple[Any, Vector]:
+def _first_solved(
+    cones: Cones, quadratic: Vector, linear: Vector, norms: Vector, *, coarse: bool
+) -> tuple[Any, Vector]:
     """Try one statement after the other; give the last answer and the units of its variables."""
     rows, right = np.vstack(cones.rows), np.concatenate(cones.right)
+    *attempts, last = _COARSE_ATTEMPTS if coarse else _ATTEMPTS
+    patience = _COARSE_PATIENCE if coarse else _PATIENCE
 
     def attempt(normalised: bool, tolerance: float, step: float) -> tuple[Any, Vector]:  # noqa: FBT001  (a row of a table)
         unit = 1.0 / norms if normalised else np.ones(len(norms))
@@ -117,22 +126,23 @@ def _first_solved(cones: Cones, quadratic: Vector, linear: Vector, norms: Vector
             sparse.csc_matrix(rows * unit),
             right,
             cones.kinds,
-            _settings(tolerance, step),
+            _settings(tolerance, step, patience),
         )
         return solver.solve(), unit
 
-    for statement in _ATTEMPTS[:-1]:
+    for statement in attempts:
         answer, unit = attempt(*statement)
         if str(answer.status) not in _SHORT_OF_ACCURACY:
             return answer, unit
-    return attempt(*_ATTEMPTS[-1])
+    return attempt(*last)
 
 
-def _settings(tolerance: float, step: float) -> object:
+def _settings(tolerance: float, step: float, patience: int) -> object:
     settings = clarabel.DefaultSettings()
     settings.verbose = False
     settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
     settings.max_step_fraction = step
+    settings.max_iter = patience
     settings.max_threads = 1
     return settings
 

@@ -46,11 +46,17 @@ class ColumnPlan:
         columns = np.array([column for _, column in self.entries])
         return tuple(columns[rows] for rows in self.rows_of)
 
-    def series(self, state: MotionState) -> Series:
-        """Give the torque per unit parameter, one row per entry."""
+    def series(self, state: MotionState, robot: RobotModel | None = None) -> Series:
+        """Give the torque per unit parameter, one row per entry.
+
+        Parameters
+        ----------
+        robot
+            Another robot than the model's, of the same joints and links with other lengths or gravity.
+        """
         out = np.zeros((len(self.entries), len(state.position)))
         for fill in self._fills:
-            fill(state, out)
+            fill(self.model.robot if robot is None else robot, state, out)
         return out
 
     @cached_property
@@ -71,27 +77,25 @@ class ColumnPlan:
                         )
                     )
                 else:
-                    fills.append(_TermFill(self.model.robot, term, targets))
+                    fills.append(_TermFill(term, targets))
             start += len(term.parameters(self.model.robot))
         return fills
 
 
 @dataclass(frozen=True, eq=False)
 class _TermFill:
-    robot: RobotModel
     term: Term
     targets: Indices
 
-    def __call__(self, state: MotionState, out: Series) -> None:
+    def __call__(self, robot: RobotModel, state: MotionState, out: Series) -> None:
         keep = self.targets >= 0
-        out[self.targets[keep]] = self.term.series(self.robot, state)[keep]
+        out[self.targets[keep]] = self.term.series(robot, state)[keep]
 
 
 @dataclass(frozen=True, eq=False)
 class _RigidBodyFill:
-    """Hold what the kernel needs of a robot, as contiguous arrays."""
+    """Hold what the kernel needs of a robot's structure, as contiguous arrays."""
 
-    robot: RobotModel
     chain_start: Indices
     chain: Indices
     slot: np.ndarray
@@ -108,19 +112,18 @@ class _RigidBodyFill:
             ]
         )
         return cls(
-            robot=robot,
             chain_start=np.concatenate([[0], np.cumsum([len(supports) for supports in robot.supports])]),
             chain=chain,
             slot=slot,
         )
 
-    def __call__(self, state: MotionState, out: Series) -> None:
+    def __call__(self, robot: RobotModel, state: MotionState, out: Series) -> None:
         rigid_body_series(
             np.ascontiguousarray(state.position.T),
             np.ascontiguousarray(state.velocity.T),
             np.ascontiguousarray(state.acceleration.T),
-            *self.robot.link_arrays,
-            np.asarray(self.robot.gravity, dtype=float),
+            *robot.link_arrays,
+            np.asarray(robot.gravity, dtype=float),
             self.chain_start,
             self.chain,
             self.slot,

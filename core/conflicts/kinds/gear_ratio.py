@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from ..conflict import Conflict, Hypothesis
-from ..normal import Normal
+from ..reduced import Reduced
 from ..setup import Setup
 from ..thresholds import RATIO
 from ..trial import Trials
@@ -20,14 +20,14 @@ class GearRatio(Conflict):
 
     def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
         """Give the likeliest factor of every torque, where it is more than a gain's error."""
-        normal = trials.equations(setup).normal
+        present = trials.equations(setup).reduced
         for joint in range(setup.joints):
-            linear = normal.linear_factor(joint)
-            firsts = (*RATIO.coarse, *(() if linear is None else (linear,)))
-            bounds = [normal.with_factor(joint, factor).bound for factor in firsts]
-            if normal.bound - min(bounds) < RATIO.promising:
+            linear = present.linear_factor(joint)
+            firsts = np.array([*RATIO.coarse, *(() if linear is None else (linear,))])
+            bounds = present.with_factors(joint, firsts).bound
+            if present.bound - bounds.min() < RATIO.promising:
                 continue
-            factor = _likeliest(normal, joint, firsts[int(np.argmin(bounds))])
+            factor = _likeliest(present, joint, float(firsts[np.argmin(bounds)]))
             if abs(np.log(factor)) >= RATIO.least:
                 yield factor_hypothesis(setup, joint, factor)
 
@@ -48,14 +48,14 @@ def factor_hypothesis(setup: Setup, joint: int, factor: float) -> Hypothesis:
 
 def likeliest_factor(setup: Setup, trials: Trials, joint: int) -> float:
     """Minimise what least squares leaves over a factor on the torque of a joint (from 0)."""
-    return _likeliest(trials.equations(setup).normal, joint, 1.0)
+    return _likeliest(trials.equations(setup).reduced, joint, 1.0)
 
 
-def _likeliest(normal: Normal, joint: int, first: float) -> float:
+def _likeliest(present: Reduced, joint: int, first: float) -> float:
     """Refine a factor from a first one."""
 
     def bound(logarithm: float) -> float:
-        return normal.with_factor(joint, float(np.exp(logarithm))).bound
+        return float(present.with_factors(joint, np.exp([logarithm])).bound[0])
 
     around = np.log(first) + np.array([-RATIO.around, RATIO.around])
     found = minimize_scalar(bound, bounds=around, method="bounded", options={"xatol": RATIO.tolerance})

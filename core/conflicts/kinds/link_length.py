@@ -13,6 +13,8 @@ from ..thresholds import LENGTH
 from ..trial import Trials
 
 ENTRIES: tuple[EntryName, ...] = ("d", "r")
+_GENERAL = 0.0731
+"""A change of lengths, m per number of the joint, after which none is zero."""
 
 
 class LinkLength(Conflict):
@@ -51,17 +53,35 @@ def _is_shown(link: Link, entry: EntryName) -> bool:
 def _likeliest(setup: Setup, trials: Trials, place: int, entry: EntryName) -> float:
     """Minimise what least squares leaves over the error of a length, coarsely and then finely."""
 
-    def bound(change: float) -> float:
-        return trials.equations(_changed(setup, trials, place, entry, change)).normal.bound
+    def links(change: float) -> tuple[Link, ...]:
+        return _changed(setup, trials, place, entry, change).robot.links
 
-    scores = [bound(change) for change in LENGTH.coarse]
+    bound = trials.along_length(setup, _general(setup, trials), links)
+    scores = bound(np.array(LENGTH.coarse))
     best = int(np.argmin(scores))
     present = scores[LENGTH.coarse.index(0.0)]
     if present - scores[best] < LENGTH.promising:
         return 0.0
     around = LENGTH.coarse[max(best - 1, 0)], LENGTH.coarse[min(best + 1, len(LENGTH.coarse) - 1)]
-    found = minimize_scalar(bound, bounds=around, method="bounded", options={"xatol": LENGTH.tolerance})
+
+    def lost(change: float) -> float:
+        return float(bound(np.array(change)))
+
+    found = minimize_scalar(lost, bounds=around, method="bounded", options={"xatol": LENGTH.tolerance})
     return float(found.x)
+
+
+def _general(setup: Setup, trials: Trials) -> tuple[Link, ...]:
+    """Give the links with all lengths changed that may show, so that none is zero."""
+
+    def general() -> tuple[Link, ...]:
+        robot = setup.robot
+        shown = ((link.joint, entry) for link in robot.links for entry in ENTRIES if _is_shown(link, entry))
+        for joint, entry in shown:
+            robot = with_entry(robot, joint, entry, _GENERAL * joint)
+        return robot.links
+
+    return trials.links(setup, ("general",), general)
 
 
 def _changed(setup: Setup, trials: Trials, place: int, entry: EntryName, change: float) -> Setup:

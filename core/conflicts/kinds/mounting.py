@@ -13,7 +13,7 @@ from ..setup import Setup
 from ..thresholds import MOUNTING
 from ..trial import Trials
 
-Bound = Callable[[Vector3], float]
+Bound = Callable[[np.ndarray], np.ndarray]
 _COARSE = np.array([way for way in product((-1.0, 0.0, 1.0), repeat=3) if any(way)])
 _COARSE /= np.linalg.norm(_COARSE, axis=1)[:, None]
 """The axes of the base, and the directions halfway between two and three of them."""
@@ -41,7 +41,7 @@ class Mounting(Conflict):
         size = float(np.linalg.norm(described))
         if size == 0.0:
             return
-        bound = trials.bound_of_gravity(setup)
+        bound = trials.under_gravity(setup)
         for way in _likely(lambda way: bound(size * way)):
             gravity = size * way
             if is_tilt(gravity, described):
@@ -65,7 +65,7 @@ def is_tilt(gravity: Vector3, described: Vector3) -> bool:
 
 def _likely(bound: Bound) -> Iterator[Vector3]:
     """Give directions worth a trial; a planar arm cannot distinguish a direction from its mirror image."""
-    scores = np.array([bound(way) for way in _COARSE])
+    scores = bound(_COARSE)
     first = _COARSE[np.argmin(scores)]
     apart = np.array([min(_angle(way, first), _angle(way, -first)) > MOUNTING.apart for way in _COARSE])
     best = _refined(first, bound)
@@ -85,7 +85,7 @@ def _refined(first: Vector3, bound: Bound) -> Vector3:
         return np.asarray(way / np.linalg.norm(way))
 
     def lost(step: np.ndarray) -> float:
-        return bound(direction(step))
+        return float(bound(direction(step)))
 
     return _usual(direction(fmin(lost, np.zeros(2), **_REFINEMENT)))
 

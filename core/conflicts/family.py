@@ -1,0 +1,127 @@
+"""Take the products of a regressor that is a sum of parts, each times a coordinate.
+
+Such a sum is the regressor under any gravity, or with any length in one place of the table. The products are
+quadratic in the coordinates, so that many set-ups are bounded at the cost of a few.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arrays import Indices, JointVector, Matrix, Series
+from ..log.columns.assignment import Channels
+from .reduced import RIDGE, Reduced
+
+
+@dataclass(frozen=True, eq=False)
+class MotionProducts:
+    """Hold the products of one regressor, or of several along leading axes, with all measured torques."""
+
+    products: np.ndarray
+    """Joints x columns x columns."""
+    moments: np.ndarray
+    """Joints x torques x columns."""
+    squares: Matrix
+    """Joints x torques: what own columns leave of a torque over a joint's rows."""
+    torques: Matrix
+    """The same of the whole torques."""
+    rows: JointVector
+
+    def read(self, torque: Channels) -> Reduced:
+        """Take the joints' torques as they are assigned."""
+        joints, source, factor = np.arange(len(self.rows)), list(torque.source), np.array(torque.factor)
+        moments = factor[:, None] * self.moments[..., joints, source, :]
+        leading = moments.shape[:-1]
+        squares, torques = (
+            np.broadcast_to(factor**2 * own[joints, source], leading) for own in (self.squares, self.torques)
+        )
+        return Reduced(self.products, moments, squares, torques, self.rows)
+
+
+@dataclass(frozen=True, eq=False)
+class RegressorFamily:
+    """Hold the products of parts with each other: parts x parts x joints x columns x columns."""
+
+    products: np.ndarray
+    moments: np.ndarray
+    """Parts x joints x torques x columns."""
+    squares: Matrix
+    torques: Matrix
+    rows: JointVector
+
+    def at(self, coordinates: np.ndarray) -> MotionProducts:
+        """Add up the parts, with coordinates along the last axis."""
+        parts, _, *shape = self.products.shape
+        *leading, _ = coordinates.shape
+        pairs = (coordinates[..., :, None] * coordinates[..., None, :]).reshape(*leading, parts * parts)
+        products = (pairs @ self.products.reshape(parts * parts, -1)).reshape(*leading, *shape)
+        moments = np.tensordot(coordinates, self.moments, axes=1)
+        return MotionProducts(products, moments, self.squares, self.torques, self.rows)
+
+
+def family(
+    parts: Sequence[Sequence[Series]], columns_of: Sequence[Indices], torque: Sequence[Series]
+) -> RegressorFamily:
+    """Take the products of the parts' rows (per joint, columns x instants) with each other and the torques.
+
+    Columns of one joint alone that no coordinate changes are projected out.
+    """
+    whole = [_significant(np.stack(rows)) for rows in zip(*parts, strict=True)]
+    own = _own_columns(whole, columns_of)
+    place, size = np.cumsum(~own) - 1, np.count_nonzero(~own)
+    joints, channels, every = len(columns_of), len(torque[0]), len(parts) * size
+    products, moments = np.zeros((joints, every, every)), np.zeros((joints, every, channels))
+    squares, torques = np.zeros((2, joints, channels))
+    for joint, (rows, columns, measured) in enumerate(zip(whole, columns_of, torque, strict=True)):
+        mine = own[columns]
+        basis = _basis(rows[0, mine])
+        left, torque_left = _left(rows[:, ~mine], basis), _left(measured, basis)
+        part, row = np.nonzero(left.any(axis=2))
+        used, at = left[part, row], part * size + place[columns[~mine][row]]
+        products[joint][np.ix_(at, at)] = used @ used.T
+        moments[joint, at] = used @ torque_left.T
+        squares[joint], torques[joint] = (
+            np.einsum("ij,ij->i", each, each) for each in (torque_left, measured)
+        )
+    count = np.array([float(max(measured.shape[1], 1)) for measured in torque])
+    shape = joints, len(parts), size
+    return RegressorFamily(
+        np.einsum("jpcqd->pqjcd", products.reshape(*shape, *shape[1:])),
+        np.einsum("jpct->pjtc", moments.reshape(*shape, channels)),
+        squares,
+        torques,
+        count,
+    )
+
+
+def _significant(rows: np.ndarray) -> np.ndarray:
+    """Leave out what differences of parts leave by rounding of a column that no coordinate changes."""
+    sizes = np.einsum("ijk,ijk->ij", rows, rows)
+    rows[sizes <= RIDGE * sizes.max(axis=0)] = 0.0
+    return rows
+
+
+def _own_columns(whole: Sequence[np.ndarray], columns_of: Sequence[Indices]) -> np.ndarray:
+    """Tell which columns are of one joint alone, and the same whatever the coordinates."""
+    users = np.zeros(1 + max(int(columns.max(initial=-1)) for columns in columns_of))
+    for rows, columns in zip(whole, columns_of, strict=True):
+        users[columns] += 1.0
+        users[columns[rows[1:].any(axis=(0, 2))]] = np.inf
+    return np.asarray(users == 1.0)
+
+
+def _basis(rows: Series) -> Matrix:
+    """Give orthonormal combinations of rows, as columns, without those that rounding makes."""
+    norms = np.linalg.norm(rows, axis=1)
+    scaled = rows / np.where(norms > 0.0, norms, 1.0)[:, None]
+    combinations, sizes, _ = np.linalg.svd(scaled.T, full_matrices=False)
+    return np.asarray(combinations[:, sizes > np.sqrt(RIDGE)])
+
+
+def _left(rows: np.ndarray, basis: Matrix) -> np.ndarray:
+    """Project a basis out of rows; nothing is left of a row that is but for rounding in its span."""
+    left = rows - (rows @ basis) @ basis.T
+    size, before = (np.einsum("...k,...k->...", each, each) for each in (left, rows))
+    left[size <= RIDGE * before] = 0.0
+    return np.asarray(left)
