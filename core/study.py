@@ -5,7 +5,6 @@ This is the only module that meets every chapter; each step takes what the step 
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cache
 from pathlib import Path
 
 from .conflicts.check import Conflicts, check
@@ -23,12 +22,11 @@ from .dynamics.model import standard_model
 from .errors import OptionError, SolverError
 from .estimate.problem import Problem
 from .estimate.smoothing import with_smoothed_friction
-from .extension.cure import corrections, extended_base, global_indices, sizes, with_proven
-from .extension.gain import JointGain, gains
+from .extension.cure import corrections
+from .extension.extend import extend, verified
 from .extension.measure import measure_gains
 from .extension.reserved import reserved
 from .extension.result import Extension
-from .extension.verification import verify
 from .identification.admission import admit, known_log
 from .identification.doubts import contradictions
 from .identification.identify import Fit, Progress, fit, judge
@@ -41,7 +39,6 @@ from .log.model import JointLog
 from .numerics.mapping import SERIAL, Mapper
 from .numerics.threads import on_one_thread
 from .reduction.base import base_model
-from .regressor.observe import Observation
 from .report.traces.writing import write_traces
 from .robot.model import RobotModel
 from .signals.several import condition_all
@@ -224,7 +221,7 @@ def _diagnose(task: _Task, tell: Progress) -> tuple[Extension, Conflicts]:
     before, found = _judge_and_search(settled, reference, first, _scale_progress(tell, 0.3, 0.5))
     if found.verdict != "nothing_found" and not settled.conflicts.searched and reference is None:
         # What a wrong set-up leaves, as little as it may be on an arm of two joints, resembles a cause.
-        still = _scale_progress(tell, 0.8, 0.0)
+        still = _scale_progress(tell, 0.78, 0.0)
         settled = _check(task, settled.fit, still, doubted=True)
         if settled.conflicts.applied:
             before, found = _judge_and_search(settled, reference, still, still)
@@ -253,47 +250,20 @@ def _explain(
         found, open_conflict=settled.conflicts.is_open, doubted=bool(contradictions(before))
     )
     plain = problem if reference is None else replace(problem, prior=reference.prior)
-    found, proof = _verify(found, options, plain, tell)
+    found, proof = verified(found, options, plain, lambda: tell("verify", 0.78))
     parts = before.observation.parts(problem.held_out)
     as_it_is = None if reference is None else score_reference(reference, before, parts)
     without = Extension(before, found, None, (), None, "no finding entered the model", as_it_is)
     if not corrections(found):
         return reserved(without)
     try:
-        extended = proof or fit(_extend(found, plain), options, last)
+        extended = proof or fit(extend(found, plain), options, last)
         after = judge(task.asked.logs, options, extended, last, task.asked.mapper)
     except SolverError as error:  # what was found stands, whether or not the correction can be computed
         note = f"the extended model could not be identified: {error.cause}"
         return reserved(replace(without, motion_note=note))
     tell("simulate", 0.95)
     return reserved(measure_gains(without, after, problem))
-
-
-def _extend(found: Diagnosis, problem: Problem) -> Problem:
-    """Add the causes whose gain is significant or verified to the model."""
-    return replace(problem, base=extended_base(problem.base, corrections(found)), sizes=sizes(found))
-
-
-def _verify(
-    found: Diagnosis, options: IdentifyOptions, problem: Problem, tell: Progress
-) -> tuple[Diagnosis, Fit | None]:
-    """Identify again with causes whose gain the search leaves in doubt; give the last such fit if any."""
-
-    @cache
-    def observed() -> Observation:
-        whole = _extend(with_proven(found), problem)
-        return whole.observed(lambda _done: tell("verify", 0.78))
-
-    def tried(trial: Diagnosis) -> Fit:
-        joined = _extend(trial, problem)
-        seen = observed().over(joined.plan, global_indices(trial, problem.base))
-        return fit(joined, options, lambda _stage, _done: tell("verify", 0.78), seen)
-
-    def gained(*fits: Fit) -> tuple[JointGain, ...]:
-        now, then = ((tried.observation, tried.estimate.base) for tried in fits)
-        return gains(now, then, now[0].parts(problem.held_out)[1])
-
-    return verify(found, tried, gained)
 
 
 def _scale_progress(tell: Progress, begin: float, share: float) -> Progress:

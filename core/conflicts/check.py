@@ -5,7 +5,7 @@ from itertools import takewhile
 
 from ..identification.identify import Fit
 from ..log.model import JointLog
-from .doubt import has_doubtful_unit, is_doubtful
+from .doubt import is_doubtful
 from .path import FoundConflict
 from .samples import sampled
 from .search import find_conflicts
@@ -46,7 +46,7 @@ def check(
     Stamps are always compared.
     """
     factors = tuple(stamp_factor(log) for log in logs)
-    if not (doubted or is_doubtful(fit) or any(map(has_doubtful_unit, logs))):
+    if not (doubted or is_doubtful(fit, logs)):
         return Conflicts((), factors, searched=False)
     problem = fit.problem
     trials = Trials(sampled(problem.motions, problem.held_out), terms)

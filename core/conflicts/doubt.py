@@ -9,12 +9,12 @@ from ..log.model import JointLog
 from .thresholds import DOUBT
 
 
-def is_doubtful(fit: Fit) -> bool:
-    """Tell whether a plain fit is in doubt."""
-    return fit.estimate.cost_ratio > DOUBT.cost or _unexplained(fit)
+def is_doubtful(fit: Fit, logs: tuple[JointLog, ...]) -> bool:
+    """Tell whether a plain fit or the numbers of a log are in doubt."""
+    return fit.estimate.cost_ratio > DOUBT.cost or _unexplained(fit) or any(map(_has_doubtful_unit, logs))
 
 
-def has_doubtful_unit(log: JointLog) -> bool:
+def _has_doubtful_unit(log: JointLog) -> bool:
     """Tell whether positions or efforts are of an unusual size; a good fit is no excuse."""
     return any(defect.kind == "implausible_unit" and defect.channel != "time" for defect in log.defects)
 

@@ -42,19 +42,19 @@ class Motion:
 
     def tiles(self, blocks: Container[int] | None = None) -> Iterator[Tile]:
         """Go once through some blocks of the motion (all by default); no others are conditioned."""
+        for segment, begin, end, block in self._pieces():
+            if blocks is None or block in blocks:
+                for start in range(begin, end, TILE_KEPT):
+                    yield segment.tile(self.effort_scale, start, min(start + TILE_KEPT, end), block)
+
+    def _pieces(self) -> Iterator[tuple[Segment, int, int, int]]:
+        """Cut the segments by blocks: segment, first decimated sample and the one behind the last, block."""
         borders = [self.kept * number // self.blocks for number in range(self.blocks + 1)]
         done = 0
         for segment in self.segments:
-            cuts = {0, segment.kept} | {
-                border - done for border in borders if 0 < border - done < segment.kept
-            }
-            ordered = sorted(cuts)
-            for begin, end in pairwise(ordered):
-                block = int(np.searchsorted(borders, done + begin, side="right")) - 1
-                if blocks is not None and block not in blocks:
-                    continue
-                for start in range(begin, end, TILE_KEPT):
-                    yield segment.tile(self.effort_scale, start, min(start + TILE_KEPT, end), block)
+            inside = {border - done for border in borders if 0 < border - done < segment.kept}
+            for begin, end in pairwise(sorted({0, segment.kept} | inside)):
+                yield segment, begin, end, int(np.searchsorted(borders, done + begin, side="right")) - 1
             done += segment.kept
 
 

@@ -4,7 +4,7 @@ A window never crosses a gap, the border of a block, or what the filters spoil a
 joints stay in, because a simulation has to get standstill right too.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -59,14 +59,20 @@ def stretches(motions: tuple[Motion, ...], chosen: frozenset[BlockKey] | None = 
     """Go through the motions block by block (all blocks by default)."""
     for log, motion in enumerate(motions):
         blocks = None if chosen is None else {block for number, block in chosen if number == log}
-        run: list[Tile] = []
-        for tile in without_standstill_mask(motion).tiles(blocks):
-            if run and not (tile.follows and tile.block == run[-1].block):
-                yield from _usable_part((log, run[0].block), run)
-                run = []
-            run.append(tile)
-        if run:
+        for run in _runs(without_standstill_mask(motion).tiles(blocks)):
             yield from _usable_part((log, run[0].block), run)
+
+
+def _runs(tiles: Iterable[Tile]) -> Iterator[list[Tile]]:
+    """Gather tiles that follow each other within a block."""
+    run: list[Tile] = []
+    for tile in tiles:
+        if run and not (tile.follows and tile.block == run[-1].block):
+            yield run
+            run = []
+        run.append(tile)
+    if run:
+        yield run
 
 
 def measured_torque(stretch: Stretch) -> JointSeries:

@@ -11,6 +11,7 @@ from veritorque.core import study
 from veritorque.core.diagnosis.result import Diagnosis
 from veritorque.core.diagnosis.thresholds.checks import SIZE
 from veritorque.core.errors import SolverError
+from veritorque.core.extension import extend
 from veritorque.core.extension.result import Extension
 from veritorque.core.identification import identify
 from veritorque.core.study import IdentifyRequest, diagnose_in_full
@@ -51,6 +52,7 @@ def test_what_proved_itself_is_not_identified_once_more(monkeypatch):
         return fits[-1]
 
     monkeypatch.setattr(study, "fit", fitted)
+    monkeypatch.setattr(extend, "fit", fitted)
     found = studied(monkeypatch, HIDDEN)
     assert len(fits) == 3  # the plain model, as it is with what is beyond doubt, and with the cause in doubt
     assert found.after.observation is fits[-1].observation
@@ -83,6 +85,7 @@ def test_a_cause_in_doubt_with_which_there_is_no_answer_joins_no_model(monkeypat
         raise SolverError("it has no answer", evidence={}, remedy="none")
 
     monkeypatch.setattr(study, "fit", unsolved)
+    monkeypatch.setattr(extend, "fit", unsolved)
     found = studied(monkeypatch, HIDDEN)
     assert found.after is None
     assert not found.diagnosis.findings[0].proven

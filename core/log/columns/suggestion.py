@@ -145,16 +145,21 @@ def _declared(
 
     What is named after the motor is on its side of a gear, whose ratio only the user knows.
     """
+    known = UNITS[channel]
     geared = channel in MOTOR_SIDE and "motor" in name_words(columns[0])
-    usual = next(iter(UNITS[channel])) if geared else _unit(channel, table, columns[0])
+    usual = next(iter(known)) if geared else _unit(channel, table, columns[0])
     units = [
-        _said_unit(channel, table, column)
-        or (_unit_of_slide(channel, table, column) if joint in prismatic else usual)
-        for joint, column in enumerate(columns, 1)
+        _said_unit(channel, table, column) or (_unit_of_slide(channel, table, column) if slides else usual)
+        for column, slides in zip(columns, _slide(columns, prismatic), strict=True)
     ]
-    is_open = geared or any(unit in UNITS[channel] and UNITS[channel][unit].needs_scale for unit in units)
+    is_open = geared or any(known[unit].needs_scale for unit in known.keys() & set(units))
     declared: dict[str, object] = {"unit": units if len(set(units)) > 1 else units[0]}
     return declared | ({"scale": UNKNOWN} if is_open else {})
+
+
+def _slide(columns: Sequence[str], prismatic: Collection[int]) -> list[bool]:
+    """Tell of each joint's column whether the joint is known to be prismatic."""
+    return [joint in prismatic for joint in range(1, len(columns) + 1)]
 
 
 def _unit_of_slide(channel: str, table: Table, column: str) -> str:

@@ -103,10 +103,14 @@ class _Rows:
             elif not _is_whole(line, self.table):
                 self.first = self.first or line
                 self.odd.append(self._lines + place + 1)
-        filled = next((place for place in reversed(range(begin, len(lines))) if lines[place].strip()), None)
-        if filled is not None:
-            self.last, self.last_line = lines[filled], self._lines + filled + 1
+        self._keep_last(lines, begin)
         self._lines += len(lines)
+
+    def _keep_last(self, lines: Sequence[bytes], begin: int) -> None:
+        for place in reversed(range(begin, len(lines))):
+            if lines[place].strip():
+                self.last, self.last_line = lines[place], self._lines + place + 1
+                return
 
     def _doubtful(self, lines: Sequence[bytes]) -> Sequence[int]:
         """Leave out the lines that have as many separators as a row, and no quotation."""
