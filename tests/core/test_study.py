@@ -252,8 +252,8 @@ def test_a_clean_log_gives_its_robot_back():
 def _tiles_with(change: Callable[[object], object]) -> Callable[[object], Iterator[object]]:
     tiles = conditioning.Motion.tiles
 
-    def changed(self: conditioning.Motion) -> Iterator[object]:
-        for tile in tiles(self):
+    def changed(self: conditioning.Motion, *blocks: object) -> Iterator[object]:
+        for tile in tiles(self, *blocks):
             yield change(tile)
 
     return changed
