@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from tests.core.diagnosis.made_up import JOINT, MadeUpCause, candidate, made_up, on_joint
+from tests.core.diagnosis.made_up import JOINT, candidate, made_up, on_joint
 from tests.core.diagnosis.scenes import Scene, fitter_of, measured_arm
-from veritorque.core.diagnosis.causes.protocol import Quantity, SearchTraits
 from veritorque.core.diagnosis.checks.plausible_size import has_plausible_size
 
 STIFFNESS, FAR = 3.0, 200.0
@@ -45,28 +44,3 @@ def test_a_torque_that_another_column_cancels_has_no_plausible_size(sprung: Scen
         return [spring + 1e4 * rotor]
 
     assert not sensible(sprung, make)
-
-
-class Begins(MadeUpCause):
-    """Act from an instant on, which is known well, however large the effect is."""
-
-    id = title = "begins"
-    traits = SearchTraits(onset={"time": slice(None)})
-
-    def quantities(self, solved):
-        return (*super().quantities(solved), Quantity("time", None, "s", solved.scalars["time"], 1e-3))
-
-
-@pytest.mark.parametrize("share", [0.0, 1.0])
-def test_when_a_cause_acts_is_no_size(sprung: Scene, share: float):
-    class Spring(Begins):
-        @staticmethod
-        def make(state, scalars):
-            noise = np.random.default_rng(3).normal(size=len(state.time))
-            acts = state.time > scalars["time"]
-            return [np.where(acts, share * state.position[:, JOINT - 1] + 1e-6 * noise, 0.0)]
-
-    cause = Spring()
-    fitter = fitter_of(sprung, (cause,))
-    found = fitter.fit((candidate(cause, {"time": 1.0}),))
-    assert has_plausible_size(fitter, found, 0) == bool(share)
