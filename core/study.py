@@ -133,10 +133,10 @@ def _settle(
 ) -> _Settled:
     """Fit once, correct what robot and logs disagree in, and fit again where there is any such thing."""
     first = fit(_prepare(task, tell, reference), task.options, tell)
-    return _check(task, first, tell, reference, doubted=doubted)
+    return _corrected(task, first, tell, reference, doubted=doubted)
 
 
-def _check(
+def _corrected(
     task: _Task, first: Fit, tell: Progress, reference: Reference | None = None, *, doubted: bool
 ) -> _Settled:
     """Look for what robot and logs disagree in, correct it, and fit again.
@@ -222,7 +222,7 @@ def _diagnose(task: _Task, tell: Progress) -> tuple[Extension, Conflicts]:
     if found.verdict != "nothing_found" and not settled.conflicts.searched and reference is None:
         # What a wrong set-up leaves, as little as it may be on an arm of two joints, resembles a cause.
         still = _scale_progress(tell, 0.78, 0.0)
-        settled = _check(task, settled.fit, still, doubted=True)
+        settled = _corrected(task, settled.fit, still, doubted=True)
         if settled.conflicts.applied:
             before, found = _judge_and_search(settled, reference, still, still)
     return _explain(settled, before, found, reference, tell), settled.conflicts

@@ -150,14 +150,14 @@ def _declared(
     usual = next(iter(known)) if geared else _unit(channel, table, columns[0])
     units = [
         _said_unit(channel, table, column) or (_unit_of_slide(channel, table, column) if slides else usual)
-        for column, slides in zip(columns, _slide(columns, prismatic), strict=True)
+        for column, slides in zip(columns, _are_prismatic(columns, prismatic), strict=True)
     ]
     is_open = geared or any(known[unit].needs_scale for unit in known.keys() & set(units))
     declared: dict[str, object] = {"unit": units if len(set(units)) > 1 else units[0]}
     return declared | ({"scale": UNKNOWN} if is_open else {})
 
 
-def _slide(columns: Sequence[str], prismatic: Collection[int]) -> list[bool]:
+def _are_prismatic(columns: Sequence[str], prismatic: Collection[int]) -> list[bool]:
     """Tell of each joint's column whether the joint is known to be prismatic."""
     return [joint in prismatic for joint in range(1, len(columns) + 1)]
 
