@@ -7,7 +7,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from .columns import Column, print_table
-from .tables import number, score_columns
+from .tables import number, reading_lines, score_columns
 from .warnings import print_warnings
 
 Document = Mapping[str, Any]
@@ -19,8 +19,10 @@ _AGREEMENT = {
 
 
 def print_check(console: Console, result: Document) -> None:
-    """Print warnings, the verdict, errors, parameters and causes."""
+    """Print warnings, how the logs were read, the verdict, errors, parameters and causes."""
     print_warnings(console, result)
+    for line in reading_lines(result):
+        console.print(line)
     console.print(_AGREEMENT[result["agreement"]])
     print_table(console, score_columns(result), title="Torque prediction error, % of range and of RMS")
     for line in parameter_lines(result["identifiable"]):

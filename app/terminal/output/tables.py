@@ -98,8 +98,19 @@ def summary(result: Document) -> list[str]:
             f"Smallest eigenvalue of the mass matrix in {workspace.get('configurations', 'all')} "
             f"configurations: {number(workspace['workspace'])}."
         )
+    return lines + reading_lines(result)
+
+
+def reading_lines(result: Document) -> list[str]:
+    """Say in what the logs were read otherwise than they stand in their files.
+
+    Examples
+    --------
+    >>> reading_lines({"defects": [{"log": 1, "kind": "rearranged", "statement": "It was sorted."}]})
+    ['Log 1: It was sorted.']
+    """
     defects = [defect for defect in result.get("defects", []) if defect["kind"] in READ_OTHERWISE]
-    return lines + [f"Log {defect['log']}: {escape(defect['statement'])}" for defect in defects]
+    return [f"Log {defect['log']}: {escape(defect['statement'])}" for defect in defects]
 
 
 def consistency(feasible: bool | None) -> str:  # noqa: FBT001  (three-valued answer, printed)

@@ -278,6 +278,15 @@ def test_a_result_on_disk_is_what_a_diagnosis_compares_with(planar, monkeypatch)
     assert seen == [json.loads(Path("before.json").read_text())]
 
 
+@pytest.mark.parametrize("command", ["identify", "check"])
+def test_how_a_log_was_read_stands_in_what_is_printed(planar, command):
+    (planar / "cut.csv").write_bytes(csv_log().rstrip()[:-20])
+    asked = (*QUICK,) if command == "identify" else ()
+    assert "the last row, cut short, left out" in " ".join(
+        run(command, "arm.json", "cut.csv", *asked).stdout.split()
+    )
+
+
 def test_robots_are_shown_as_they_are_understood(planar):
     listed = run("robots", "list").stdout.splitlines()
     assert [line.split()[:2] for line in listed] == [["yumi-left", "7"], ["yumi-right", "7"], ["yumi", "14"]]
