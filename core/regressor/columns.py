@@ -11,7 +11,7 @@ import numpy as np
 
 from ..arrays import Indices, Matrix, Series
 from ..dynamics.model import DynamicModel
-from ..dynamics.term import Term
+from ..dynamics.term import Term, is_linearised
 from ..dynamics.terms.rigid_body import RigidBody
 from ..robot.model import RobotModel
 from ..signals.state import MotionState
@@ -33,6 +33,11 @@ class ColumnPlan:
         index_of = {column: index for index, column in enumerate(self.columns)}
         wanted = {(joint, index_of[column]) for joint, column in self.model.entries if column in index_of}
         return tuple(sorted(wanted))
+
+    @cached_property
+    def is_instantaneous(self) -> bool:
+        """Tell whether every series follows from the motion at its instant alone."""
+        return not any(term.has_memory or is_linearised(term) for term in self.model.terms)
 
     @cached_property
     def rows_of(self) -> tuple[Indices, ...]:

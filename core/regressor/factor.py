@@ -69,13 +69,13 @@ class Factor:
             return self
         return replace(self, triangle=_triangle(np.vstack([self.triangle, rows])), rows=self.rows + len(rows))
 
-    def merged(self, other: "Factor") -> "Factor":
-        """Join two factors over the same columns."""
-        if not other.rows or not self.rows:
-            return self if self.rows else other
-        return replace(
-            self, triangle=_triangle(np.vstack([self.triangle, other.triangle])), rows=self.rows + other.rows
-        )
+    def merged(self, *others: "Factor") -> "Factor":
+        """Join factors over the same columns, all in one triangularisation."""
+        known = [part for part in (self, *others) if part.rows]
+        if len(known) < 2:
+            return known[0] if known else self
+        triangle = _triangle(np.vstack([part.triangle for part in known]))
+        return replace(self, triangle=triangle, rows=sum(part.rows for part in known))
 
     def over(self, columns: Indices) -> "Factor":
         """Keep some of the columns, in their order.

@@ -74,7 +74,7 @@ class TurningProducts:
 
     one: np.ndarray
     both: np.ndarray
-    """Products of pairs of which one row, or both, lie beside a reversal."""
+    """Products of pairs of which one row, or both, lie beside a reversal; only their symmetric parts count."""
 
     @classmethod
     def empty(cls, columns: int) -> "TurningProducts":
@@ -84,14 +84,18 @@ class TurningProducts:
 
     def extended(self, rows: Rows, turning: SampleMask, first: int) -> "TurningProducts":
         """Take in the rows from the `first` on; those before it are already taken."""
-        parts = np.stack([self.one, self.both])
-        for lag in range(LaggedProducts.LAGS + 1):
-            place = np.arange(max(first, lag), len(rows))
-            count = turning[place - lag].astype(int) + turning[place]
-            for part, wanted in zip(parts, (1, 2), strict=True):
-                found = place[count == wanted]
-                part[lag] += rows[found - lag].T @ rows[found]
-        return TurningProducts(*parts)
+        place, lags = np.flatnonzero(turning), np.arange(LaggedProducts.LAGS + 1)
+        if not len(place):
+            return self
+        beyond = np.zeros((LaggedProducts.LAGS, rows.shape[1]))
+        padded, marked = np.vstack([beyond, rows, beyond]), np.pad(turning, LaggedProducts.LAGS)
+        at, known = place + LaggedProducts.LAGS, int(np.searchsorted(place, first))
+        later = padded[at[:, None] + lags]  # a pair counts by its later row
+        later[:known][(at[:known, None] + lags) < first + LaggedProducts.LAGS] = 0.0
+        both = _products(rows[place], later * marked[at[:, None] + lags][:, :, None])
+        later[known:] += padded[at[known:, None] - lags]
+        # That counts pairs of which both rows are marked from either side.
+        return TurningProducts(self.one + _products(rows[place], later) - 2.0 * both, self.both + both)
 
     def merged(self, other: "TurningProducts") -> "TurningProducts":
         """Join the products of two stretches."""
@@ -106,3 +110,10 @@ class TurningProducts:
         """Give the lagged products of all rows, those beside a reversal times a weight."""
         less = (1.0 - weight) * self.one + (1.0 - weight**2) * self.both
         return LaggedProducts(whole.products - less, whole.rows)
+
+
+def _products(rows: Rows, partners: np.ndarray) -> np.ndarray:
+    """Multiply rows with those that are so many lags away: rows x lags x columns."""
+    count, lags, columns = partners.shape
+    products = rows.T @ partners.reshape(count, lags * columns)
+    return np.moveaxis(products.reshape(-1, lags, columns), 1, 0)

@@ -67,7 +67,7 @@ class Observation:
 
     def _merged(self, blocks: list[tuple[Factor, ...]]) -> tuple[Factor, ...]:
         return tuple(
-            reduce(Factor.merged, (block[joint] for block in blocks), Factor.empty(len(columns) + 1))
+            Factor.empty(len(columns) + 1).merged(*(block[joint] for block in blocks))
             for joint, columns in enumerate(self.columns_of)
         )
 
@@ -174,7 +174,10 @@ def _take_all(motions: tuple[Motion, ...], gathered: list["_Gathering"], progres
 
 def equations(plan: ColumnPlan, tile: Tile) -> Iterator[FilteredRows]:
     """Give, joint by joint, the filtered rows [W y] of a tile with the mask of usable ones."""
-    filtered = tile.filtered(plan.series(tile.state))
+    if plan.is_instantaneous:
+        filtered = tile.filtered_in_parts(plan.series)
+    else:
+        filtered = tile.filtered(plan.series(tile.state))
     torque = tile.filtered(np.ascontiguousarray(tile.torque.T))
     for joint, rows in enumerate(plan.rows_of):
         yield np.vstack([filtered[rows], torque[joint]]).T, tile.usable[:, joint]

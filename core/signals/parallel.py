@@ -5,23 +5,36 @@ no edge effect and no choice of cut-off can bias it. Only the decimated samples 
 stretch of motion together with its filter. Source: Gautier 1997; Khalil & Dombre (2002), ch. 12.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from ..arrays import InstantMask, Instants, JointSeries, KeptSeries, Matrix, Samples, Series
+from ..numerics.recursions import carry_decays
 from .state import MotionState
+from .zero_phase import Modes
 
-_ROWS = 32
+_ROWS = 16
+"""Decimated samples per block: few cost more states per sample, many more products."""
+_BLOCKS = 4
+"""Blocks that are made at once of series that are made in parts."""
 
 
 @dataclass(frozen=True, eq=False)
 class ParallelFilter:
-    """Low-pass and decimate rows of samples."""
+    """Low-pass and decimate rows of samples.
+
+    Away from its middle the kernel is a sum of a few decays. So the samples of a block bear on the instants of
+    other blocks through one number per decay only, which is carried from block to block, forwards and
+    backwards: the work does not grow with the kernel's length.
+    """
 
     response: Samples
     """Symmetric kernel of odd length."""
+    modes: Modes
+    """The decays that it consists of."""
     decimation: int
     """Keep every n-th sample."""
 
@@ -30,39 +43,98 @@ class ParallelFilter:
         """Count the samples that the kernel sees on either side."""
         return len(self.response) // 2
 
+    @property
+    def _length(self) -> int:
+        """Count the samples of a block."""
+        return _ROWS * self.decimation
+
     @cached_property
-    def _band(self) -> Matrix:
-        """Write `_ROWS` consecutive decimated samples as rows of a matrix over the samples they see."""
+    def _condensing(self) -> Matrix:
+        """Give what a block's samples add to its own instants, and to the states behind and before it."""
+        samples = np.arange(self._length)
+        lags = np.abs(samples[:, None] - self.decimation * np.arange(_ROWS))
+        within = np.where(lags > self.reach, 0.0, self.response[np.maximum(self.reach - lags, 0)])
+        ahead, back = (self.modes.poles ** steps[:, None] for steps in (self._length - samples, samples))
+        return np.hstack([within, ahead.real, ahead.imag, back.real, back.imag])
+
+    @cached_property
+    def _releasing(self) -> Matrix:
+        """Give what the states before and behind a block add to its instants: states x instants."""
+        steps = self.decimation * np.arange(_ROWS)
+        ahead, back = (
+            self.modes.weights[:, None] * self.modes.poles[:, None] ** lags
+            for lags in (steps, self._length - steps)
+        )
+        return np.vstack([ahead.real, -ahead.imag, back.real, -back.imag])
+
+    @cached_property
+    def _magnitude_band(self) -> Matrix:
+        """Give the share of each sample in the magnitude of consecutive instants: samples x instants."""
         span = (_ROWS - 1) * self.decimation + len(self.response)
         band = np.zeros((span, _ROWS))
         for row in range(_ROWS):
             band[row * self.decimation : row * self.decimation + len(self.response), row] = self.response
-        return band
-
-    @cached_property
-    def _magnitude_band(self) -> Matrix:
-        return np.asarray(np.abs(self._band) / np.abs(self.response).sum())
+        return np.asarray(np.abs(band) / np.abs(self.response).sum())
 
     def apply(self, series: Series, first: int, kept: int) -> KeptSeries:
         """Give `kept` filtered instants.
 
         The first lies at sample `first` of the series, beyond whose ends zeros are assumed.
         """
-        return self._run(self._band, series, first, kept)
+        return self.apply_in_parts(lambda part: series[:, part], series.shape[1], first, kept, whole=True)
+
+    def apply_in_parts(
+        self, made: Callable[[slice], Series], samples: int, first: int, kept: int, *, whole: bool = False
+    ) -> KeptSeries:
+        """Filter series that are made part by part, so that they never fill more than the nearest memory.
+
+        Parameters
+        ----------
+        made
+            Gives the series from one sample to another.
+        samples
+            Their number; beyond them zeros are assumed.
+        whole
+            Whether all are made at once.
+        """
+        before, blocks = -(-min(self.reach, first) // self._length), -(-kept // _ROWS)
+        beyond = max(samples - first - blocks * self._length, 0)
+        total = before + blocks + -(-min(self.reach, beyond) // self._length)
+        size = total if whole else _BLOCKS
+        start = first - before * self._length
+        parts = [
+            self._condensed(
+                made, samples, start + begin * self._length, start + min(begin + size, total) * self._length
+            )
+            for begin in range(0, total, size)
+        ]
+        condensed = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
+        states = np.empty((len(condensed), total, 4 * len(self.modes.poles)))
+        carry_decays(condensed, _ROWS, self.modes.poles**self._length, states)
+        inner = slice(before, before + blocks)
+        out = condensed[:, inner, :_ROWS] + states[:, inner] @ self._releasing
+        return np.asarray(out.reshape(len(out), blocks * _ROWS)[:, :kept])
+
+    def _condensed(self, made: Callable[[slice], Series], samples: int, begin: int, end: int) -> np.ndarray:
+        """Give what `_condensing` makes of some blocks: series x blocks x (instants, states)."""
+        low, high = max(begin, 0), min(end, samples)
+        part = made(slice(low, high))
+        if (low, high) != (begin, end):
+            padded = np.zeros((len(part), end - begin))
+            padded[:, low - begin : high - begin] = part
+            part = padded
+        return np.asarray(part.reshape(len(part), -1, self._length) @ self._condensing)
 
     def influence(self, marks: Series, first: int, kept: int) -> KeptSeries:
         """Give the share of the kernel's absolute mass that falls on marked samples (marks are 0 or 1)."""
-        return self._run(self._magnitude_band, marks, first, kept)
-
-    def _run(self, band: Matrix, series: Series, first: int, kept: int) -> KeptSeries:
-        out = np.empty((len(series), kept))
+        out = np.empty((len(marks), kept))
         for begin in range(0, kept, _ROWS):
             rows = min(_ROWS, kept - begin)
             left = first + begin * self.decimation - self.reach
             right = left + (rows - 1) * self.decimation + len(self.response)
-            inside = slice(max(left, 0), min(right, series.shape[1]))
-            weights = band[inside.start - left : inside.stop - left, :rows]
-            out[:, begin : begin + rows] = series[:, inside] @ weights
+            inside = slice(max(left, 0), min(right, marks.shape[1]))
+            weights = self._magnitude_band[inside.start - left : inside.stop - left, :rows]
+            out[:, begin : begin + rows] = marks[:, inside] @ weights
         return out
 
 
@@ -90,3 +162,9 @@ class Tile:
     def filtered(self, series: Series) -> KeptSeries:
         """Apply the parallel filter to rows of samples and keep the tile's instants."""
         return self.parallel.apply(series, self.first, len(self.time))
+
+    def filtered_in_parts(self, made: Callable[[MotionState], Series]) -> KeptSeries:
+        """Do the same to series of which each sample follows from the motion at its instant alone."""
+        return self.parallel.apply_in_parts(
+            lambda part: made(self.state.at(part)), len(self.torque), self.first, len(self.time)
+        )

@@ -29,7 +29,7 @@ from .resample import (
     without_spikes,
 )
 from .state import MotionState
-from .zero_phase import kernel, reach_of
+from .zero_phase import kernel, modes, reach_of
 
 STILL_SECONDS = 0.2
 END_SHARE = 1e-3
@@ -67,9 +67,8 @@ class Segment:
     @cached_property
     def parallel(self) -> ParallelFilter:
         """Give the parallel filter at this part's rate."""
-        return ParallelFilter(
-            kernel(self.recipe.cutoff_hz, self.rate_hz, self.recipe.order), self.recipe.decimation
-        )
+        design = self.recipe.cutoff_hz, self.rate_hz, self.recipe.order
+        return ParallelFilter(kernel(*design), modes(*design), self.recipe.decimation)
 
     @property
     def still_samples(self) -> int:

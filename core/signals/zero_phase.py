@@ -7,6 +7,7 @@ itself; away from the ends it equals `scipy.signal.sosfiltfilt`. Source: Oppenhe
 Signal Processing, ch. 7.
 """
 
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -58,6 +59,34 @@ def kernel(cutoff_hz: float, rate_hz: float, order: int) -> Samples:
     both = np.concatenate([half[reach:0:-1], half[: reach + 1]])
     both.setflags(write=False)
     return both
+
+
+@dataclass(frozen=True, eq=False)
+class Modes:
+    """Give a symmetric kernel away from its middle as a sum of decays: h(n) = Re sum(weights poles^|n|)."""
+
+    poles: np.ndarray
+    """Complex, inside the unit circle; of conjugate ones that in the upper half."""
+    weights: np.ndarray
+
+    def thinned(self, step: int, scale: float) -> "Modes":
+        """Give those of every so many samples of the kernel, times a scale."""
+        return Modes(self.poles**step, self.weights * scale)
+
+
+@lru_cache(maxsize=64)
+def modes(cutoff_hz: float, rate_hz: float, order: int) -> Modes:
+    """Give the modes of the kernel: the residues at those poles of |H|^2 that decay.
+
+    With s = (z - 1) / (z + 1) / tan(wc/2) it is 1 / (1 + (-s^2)^order), whose poles in s lie evenly on the
+    unit circle.
+    """
+    wide = np.tan(np.pi * cutoff_hz / rate_hz)
+    angles = np.pi * (0.5 + (2.0 * np.arange((order + 1) // 2) + 1.0) / (2.0 * order))
+    analog = np.exp(1j * angles)
+    poles = (1.0 + wide * analog) / (1.0 - wide * analog)
+    weights = -analog * wide * (poles + 1.0) ** 2 / (4.0 * order * poles)
+    return Modes(poles, weights * np.where(2 * np.arange(len(poles)) + 1 == order, 1.0, 2.0))
 
 
 def reach_of(response: Samples, share: float) -> int:

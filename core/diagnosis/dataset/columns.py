@@ -54,14 +54,16 @@ def _filtered(
 def _filter(terms: Sequence[Term], robot: RobotModel, stretch: Stretch) -> Iterator[tuple[int, KeptSeries]]:
     """Filter the series of some terms over a stretch; give each term's with its number."""
     batch: dict[int, Series] = {}
+    waiting = 0
     for index, term in enumerate(terms):
         if isinstance(term, Payload):
             yield index, onset_rows(term, robot, stretch)
             continue
         batch[index] = term.series(robot, stretch.state)
-        if sum(len(series) for series in batch.values()) >= BATCH:
+        waiting += len(batch[index])
+        if waiting >= BATCH:
             yield from _filter_batch(batch, stretch)
-            batch.clear()
+            batch, waiting = {}, 0
     if batch:
         yield from _filter_batch(batch, stretch)
 

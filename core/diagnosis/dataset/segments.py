@@ -80,7 +80,10 @@ def _segment(
     response = tile.parallel.response
     middle = len(response) // 2
     small = response[middle % thin :: thin]
-    parallel = ParallelFilter(small / small.sum() * response.sum(), recipe.decimation // thin)
+    scale = float(response.sum() / small.sum())
+    parallel = ParallelFilter(
+        small * scale, tile.parallel.modes.thinned(thin, scale), recipe.decimation // thin
+    )
     at = tile.first + recipe.decimation * np.arange(len(tile.time))
     settled = _settled(at, len(tile.state.position), segment.rate_hz / recipe.cutoff_hz)
     fraction = (done + np.arange(*kept)) / motion.kept

@@ -13,13 +13,13 @@ class Prediction:
     """Quantile of Student's law on each side of the interval of the share, which is of 95 %."""
     folds: int = 5
     """Parts of the blocks that are left out in turn."""
-    trees: int = 40
+    trees: int = 20
     """Regression trees."""
     leaves: int = 6
     """Leaves of a tree."""
     leaf_rows: int = 20
     """Rows of a leaf at least."""
-    rate: float = 0.1
+    rate: float = 0.2
     """Factor on what every tree adds."""
     quantiles: int = 63
     """Quantiles of a coordinate at which trees may split."""

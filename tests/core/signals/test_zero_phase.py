@@ -10,7 +10,7 @@ from scipy import signal
 
 from veritorque.core.errors import OptionError
 from veritorque.core.signals.parallel import ParallelFilter
-from veritorque.core.signals.zero_phase import gain, kernel, reach_of
+from veritorque.core.signals.zero_phase import gain, kernel, modes, reach_of
 
 CASES = [
     (10.0, 250.0, 5),
@@ -90,13 +90,13 @@ def test_the_parallel_filter_equals_filtering_first_and_thinning_after(decimatio
         [np.convolve(row, response, mode="same") for row in np.pad(series, ((0, 0), (400, 400)))]
     )
     expected = whole[:, 400:-400][:, first::decimation][:, :kept]
-    assert np.max(np.abs(ParallelFilter(response, decimation).apply(series, first, kept) - expected)) < 1e-12
+    assert np.max(np.abs(ParallelFilter(response, modes(10.0, 250.0, 5), decimation).apply(series, first, kept) - expected)) < 1e-12
 
 
 def test_the_influence_of_marks_is_the_share_of_the_kernel_that_sees_them():
     response = kernel(10.0, 250.0, 5)
     size = len(response)
-    parallel = ParallelFilter(response, 5)
+    parallel = ParallelFilter(response, modes(10.0, 250.0, 5), 5)
     assert np.allclose(parallel.influence(np.ones((1, 5 * size)), 2 * size, 8), 1.0, atol=1e-12)
     assert not parallel.influence(np.zeros((1, 5 * size)), 2 * size, 8).any()
     half = np.zeros((1, 5 * size))
