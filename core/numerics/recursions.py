@@ -270,7 +270,7 @@ def carry_decays(added, first, decays, carried) -> None:  # pragma: no cover  (c
     Parameters
     ----------
     added
-        Series x blocks x (others, then real and imaginary parts of what goes forwards, and of what goes back).
+        Series x blocks x (others, then real and imaginary parts of what goes forwards, then back).
     first
         How many others there are.
     decays

@@ -74,7 +74,7 @@ class TurningProducts:
 
     one: np.ndarray
     both: np.ndarray
-    """Products of pairs of which one row, or both, lie beside a reversal; only their symmetric parts count."""
+    """Products of pairs of which one row, or both, lie beside a reversal. Only symmetric parts count."""
 
     @classmethod
     def empty(cls, columns: int) -> "TurningProducts":

@@ -26,9 +26,9 @@ _BLOCKS = 4
 class ParallelFilter:
     """Low-pass and decimate rows of samples.
 
-    Away from its middle the kernel is a sum of a few decays. So the samples of a block bear on the instants of
-    other blocks through one number per decay only, which is carried from block to block, forwards and
-    backwards: the work does not grow with the kernel's length.
+    Away from its middle the kernel is a sum of a few decays. So the samples of a block bear on the instants
+    of other blocks through one complex number per decay only. It is carried from block to block, forwards
+    and backwards, and the work does not grow with the kernel's length.
     """
 
     response: Samples
@@ -97,7 +97,7 @@ class ParallelFilter:
         whole
             Whether all are made at once.
         """
-        before, blocks = -(-min(self.reach, first) // self._length), -(-kept // _ROWS)
+        before, blocks = -(-min(self.reach, max(first, 0)) // self._length), -(-kept // _ROWS)
         beyond = max(samples - first - blocks * self._length, 0)
         total = before + blocks + -(-min(self.reach, beyond) // self._length)
         size = total if whole else _BLOCKS
@@ -117,7 +117,8 @@ class ParallelFilter:
 
     def _condensed(self, made: Callable[[slice], Series], samples: int, begin: int, end: int) -> np.ndarray:
         """Give what `_condensing` makes of some blocks: series x blocks x (instants, states)."""
-        low, high = max(begin, 0), min(end, samples)
+        low = min(max(begin, 0), samples)
+        high = max(min(end, samples), low)
         part = made(slice(low, high))
         if (low, high) != (begin, end):
             padded = np.zeros((len(part), end - begin))

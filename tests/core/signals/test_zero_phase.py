@@ -81,16 +81,42 @@ def test_a_filter_that_cannot_be_built_is_refused_with_its_limits(cutoff_hz, ord
 
 
 @pytest.mark.parametrize("decimation", [1, 3, 40])
+@pytest.mark.parametrize("order", [1, 4, 5, 12])
+@pytest.mark.parametrize("whole", [True, False])
 @pytest.mark.parametrize(("first", "kept"), [(0, 5), (300, 64), (7, 65), (900, 200)])
-def test_the_parallel_filter_equals_filtering_first_and_thinning_after(decimation, first, kept):
-    response = kernel(10.0, 250.0, 5)
+def test_the_parallel_filter_equals_filtering_first_and_thinning_after(decimation, order, whole, first, kept):
+    response = kernel(10.0, 250.0, order)
+    parallel = ParallelFilter(response, modes(10.0, 250.0, order), decimation)
     samples = first + decimation * kept + 20
-    series = np.random.default_rng(2).normal(size=(3, samples))
-    whole = np.array(
-        [np.convolve(row, response, mode="same") for row in np.pad(series, ((0, 0), (400, 400)))]
+    series, zeros = np.random.default_rng(2).normal(size=(3, samples)), len(response)
+    whole_series = np.array(
+        [np.convolve(row, response, mode="same") for row in np.pad(series, ((0, 0), (zeros, zeros)))]
     )
-    expected = whole[:, 400:-400][:, first::decimation][:, :kept]
-    assert np.max(np.abs(ParallelFilter(response, modes(10.0, 250.0, 5), decimation).apply(series, first, kept) - expected)) < 1e-12
+    expected = whole_series[:, zeros:-zeros][:, first::decimation][:, :kept]
+    found = parallel.apply_in_parts(lambda part: series[:, part], samples, first, kept, whole=whole)
+    assert np.max(np.abs(found - expected)) < 1e-12
+
+
+@pytest.mark.parametrize(("first", "kept"), [(-700, 90), (-3, 10), (500, 8), (2_000, 5), (40, 0)])
+def test_instants_before_and_behind_the_series_see_what_the_kernel_reaches(first, kept):
+    response = kernel(10.0, 250.0, 5)
+    series, beyond = np.random.default_rng(4).normal(size=(2, 480)), 3_000
+    padded = np.pad(series, ((0, 0), (beyond, beyond)))
+    filtered = np.array([np.convolve(row, response, mode="same") for row in padded])
+    expected = filtered[:, beyond + first :: 10][:, :kept]
+    found = ParallelFilter(response, modes(10.0, 250.0, 5), 10).apply(series, first, kept)
+    assert found.shape == expected.shape
+    assert np.max(np.abs(found - expected), initial=0.0) < 1e-12
+
+
+@pytest.mark.parametrize("order", range(1, 13))
+@pytest.mark.parametrize(("cutoff_hz", "rate_hz"), [(10.0, 250.0), (0.3, 1000.0), (45.0, 100.0)])
+def test_a_kernel_is_the_sum_of_its_modes_away_from_its_middle(order, cutoff_hz, rate_hz):
+    response, found = kernel(cutoff_hz, rate_hz, order), modes(cutoff_hz, rate_hz, order)
+    lags = np.arange(1, len(response) // 2 + 1)
+    half = response[len(response) // 2 :]
+    decays = np.real(np.sum(found.weights[:, None] * found.poles[:, None] ** lags, axis=0))
+    assert np.max(np.abs(decays - half[1:])) < 1e-12 * half[0]
 
 
 def test_the_influence_of_marks_is_the_share_of_the_kernel_that_sees_them():
