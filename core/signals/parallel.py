@@ -99,7 +99,7 @@ class ParallelFilter:
         """
         before, blocks = -(-min(self.reach, max(first, 0)) // self._length), -(-kept // _ROWS)
         beyond = max(samples - first - blocks * self._length, 0)
-        total = before + blocks + -(-min(self.reach, beyond) // self._length)
+        total = max(before + blocks + -(-min(self.reach, beyond) // self._length), 1)
         size = total if whole else _BLOCKS
         start = first - before * self._length
         parts = [
