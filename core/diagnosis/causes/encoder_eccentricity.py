@@ -26,9 +26,7 @@ class EncoderEccentricity(OwnJointCause, CorrectsLog):
     experiment = "fast motion through as much of a revolution as the joint's range allows"
     coordinate = "position"
     traits = SearchTraits(
-        linearisation_error=LINEARISATION.eccentricity,
-        largest=ADMISSIBLE.encoder_eccentricity,
-        represented=ADMISSIBLE.eccentricity_represented,
+        linearisation_error=LINEARISATION.eccentricity, largest=ADMISSIBLE.encoder_eccentricity
     )
     revolute_only = True
 
@@ -39,6 +37,11 @@ class EncoderEccentricity(OwnJointCause, CorrectsLog):
     def admissible(self, solved: FittedCause) -> bool:
         """Admit an error that a first-order column can represent."""
         return bool(float(solved.values @ solved.values) < ADMISSIBLE.encoder_eccentricity**2)
+
+    def represented(self, at: Setting, solved: FittedCause) -> bool:
+        """Doubt an error whose second order, which the columns omit, is as large as their accuracy."""
+        del at
+        return bool(np.linalg.norm(solved.values) <= ADMISSIBLE.eccentricity_represented)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report amplitude and phase of the error amplitude sin(q + phase)."""

@@ -133,7 +133,26 @@ EXCLUSIONS: tuple[Exclusion, ...] = (
     ),
 )
 
+DOUBTS: tuple[Exclusion, ...] = (
+    Exclusion(
+        "friction_viscous_nonlinear",
+        f"the exponent is below {ADMISSIBLE.least_power:g}",
+        "it differs from Coulomb friction next to reversals only, where much else leaves a residual",
+    ),
+    Exclusion(
+        "friction_presliding",
+        "the distance is a five-thousandth of the joint's range or less",
+        "it is a step next to reversals, where much else leaves a residual",
+    ),
+    Exclusion(
+        "encoder_eccentricity",
+        f"the amplitude is above {ADMISSIBLE.eccentricity_represented:g} rad",
+        "the first order of the error, which is fitted, omits a tenth of it",
+    ),
+)
+"""Where a finding is doubtful: its confidence is 0.5 at most."""
 
-def exclusions(cause: str) -> tuple[Exclusion, ...]:
-    """List where a cause is not named."""
-    return tuple(entry for entry in EXCLUSIONS if entry.cause == cause)
+
+def exclusions(cause: str, listed: tuple[Exclusion, ...] = EXCLUSIONS) -> tuple[Exclusion, ...]:
+    """List where a cause is not named, or where it is doubtful."""
+    return tuple(entry for entry in listed if entry.cause == cause)

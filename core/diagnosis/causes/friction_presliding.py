@@ -38,6 +38,11 @@ class FrictionPresliding(OwnJointCause):
         """Admit friction that builds up."""
         return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
+    def represented(self, at: Setting, solved: FittedCause) -> bool:
+        """Doubt a distance that is no longer than the shortest scanned: it is a step next to reversals."""
+        shortest = self.grid(at)[0]["presliding_distance"]
+        return solved.scalars["presliding_distance"] > shortest
+
     def statement(self, solved: FittedCause) -> str:
         """State level and presliding distance."""
         found = self.by_name(solved)

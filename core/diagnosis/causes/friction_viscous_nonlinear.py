@@ -40,6 +40,11 @@ class FrictionViscousNonlinear(OwnJointCause):
             and abs(power - 1.0) >= ADMISSIBLE.power_distance
         )
 
+    def represented(self, at: Setting, solved: FittedCause) -> bool:
+        """Doubt a power near zero: it differs from Coulomb friction next to reversals only."""
+        del at
+        return solved.scalars["exponent"] >= ADMISSIBLE.least_power
+
     def statement(self, solved: FittedCause) -> str:
         """State exponent and coefficient."""
         found = self.by_name(solved)

@@ -8,7 +8,7 @@ import inspect
 import sys
 from collections.abc import Mapping
 
-from .exclusion import GENERAL, exclusions
+from .exclusion import DOUBTS, EXCLUSIONS, GENERAL, Exclusion, exclusions
 from .imitation import Imitation, imitations
 from .protocol import Cause
 from .registry import BY_ID, ONLY_CHANGES
@@ -103,8 +103,13 @@ def _section(cause: Cause | SampleCheck) -> str:
 
 
 def _excluded(cause: str) -> str:
-    rows = "".join(f"- {entry.where}: {entry.law}.\n" for entry in exclusions(cause))
-    return f"Never named where:\n\n{rows}\n" if rows else ""
+    parts = ("Never named where:", EXCLUSIONS), ("Doubtful, with a confidence of 0.5 at most, where:", DOUBTS)
+    found = ((title, exclusions(cause, listed)) for title, listed in parts)
+    return "".join(f"{title}\n\n{''.join(map(_row, entries))}\n" for title, entries in found if entries)
+
+
+def _row(entry: Exclusion) -> str:
+    return f"- {entry.where}: {entry.law}.\n"
 
 
 def _repair(cause: Cause | SampleCheck) -> str:

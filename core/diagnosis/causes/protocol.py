@@ -125,8 +125,6 @@ class SearchTraits:
     largest: float = np.inf
     """Largest size of its linear parameters that a robot can have. A log that leaves all of them open beyond
     it cannot show the cause."""
-    represented: float = np.inf
-    """Largest size that columns of first order represent. Beyond it a finding is doubtful."""
     least_clear: float = 0.0
     """Share of its squared columns that the model must leave: for causes that a joint's own parameters absorb
     but for what other joints know."""
@@ -168,6 +166,9 @@ class Cause(Protocol):
 
     def admissible(self, solved: FittedCause) -> bool:
         """Tell whether the estimates are physically admissible: signs and sizes."""
+
+    def represented(self, at: Setting, solved: FittedCause) -> bool:
+        """Tell whether its columns represent such estimates. Where they do not, a finding is doubtful."""
 
     def contradicted(self, at: Setting, solved: FittedCause) -> bool:
         """Tell whether robot and motion, at the operating point, contradict the estimates."""

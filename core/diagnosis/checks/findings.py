@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...arrays import JointSeries
-from ..causes.protocol import Cause
+from ..causes.protocol import Cause, Setting
 from ..causes.sample_check import SampleCheck, SampleFinding
 from ..dataset.dataset import Dataset
 from ..result import Evidence, Finding
@@ -46,7 +46,8 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
     log_p = log_p_of(fitter, chosen, index, own.statistic)
     margin = min(own.margin, own.over_unnamed, own.statistic - unnamed)
     evidence = predictors(own.statistic, margin, measured)
-    doubtful = own.margin < 0.0 or np.linalg.norm(solved.values) > cause.traits.represented
+    at = Setting(dataset, fitter.operating_point, member.site, member.scalars)
+    doubtful = own.margin < 0.0 or not cause.represented(at, solved)
     return Finding(
         cause=cause.id,
         title=cause.title,

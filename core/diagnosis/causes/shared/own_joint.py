@@ -49,6 +49,11 @@ class OwnJointCause:
         """Admit any finite value, and no negative rotor inertia."""
         return bool(np.isfinite(solved.values).all()) and solved.scalars.get("motor_inertia", 0.0) >= 0.0
 
+    def represented(self, at: Setting, solved: FittedCause) -> bool:
+        """Take every size as represented."""
+        del at, solved
+        return True
+
     def contradicted(self, at: Setting, solved: FittedCause) -> bool:
         """Know of nothing in the motion that contradicts it."""
         del at, solved

@@ -11,6 +11,8 @@ from tests.core.estimate.worlds import true_parameters
 from veritorque.core.diagnosis.causes.encoder_eccentricity import EncoderEccentricity
 from veritorque.core.diagnosis.causes.encoder_offset import EncoderOffset
 from veritorque.core.diagnosis.causes.exclusion import EXCLUSIONS, GENERAL
+from veritorque.core.diagnosis.causes.friction_presliding import FrictionPresliding
+from veritorque.core.diagnosis.causes.friction_viscous_nonlinear import FrictionViscousNonlinear
 from veritorque.core.diagnosis.causes.guide import guide
 from veritorque.core.diagnosis.causes.protocol import FittedCause, Setting
 from veritorque.core.diagnosis.causes.registry import BY_ID, CAUSES
@@ -83,7 +85,29 @@ def test_no_disc_is_as_eccentric_as_its_first_order_cannot_say():
 
     assert EncoderEccentricity().admissible(solved(0.27))
     assert not EncoderEccentricity().admissible(solved(0.31))
-    assert EncoderEccentricity.traits.represented < 0.27
+    look = scene(0.4)
+    at = Setting(look.dataset, look.operating_point, (1,), {})
+    assert not EncoderEccentricity().represented(at, solved(0.27))
+    assert EncoderEccentricity().represented(at, solved(0.1))
+
+
+@pytest.mark.parametrize(("exponent", "sure"), [(0.12, False), (0.18, False), (0.4, True), (2.0, True)])
+def test_friction_that_differs_from_coulomb_friction_next_to_reversals_only_is_doubtful(exponent, sure):
+    solved = FittedCause((1,), np.ones(1), 1e-6 * np.eye(1), {"exponent": exponent}, {})
+    assert FrictionViscousNonlinear().admissible(solved)
+    look = scene(0.4)
+    at = Setting(look.dataset, look.operating_point, (1,), solved.scalars)
+    assert FrictionViscousNonlinear().represented(at, solved) is sure
+
+
+@pytest.mark.parametrize(("share", "sure"), [(1e-4, False), (2e-4, False), (4e-4, True), (0.1, True)])
+def test_friction_that_builds_up_within_a_step_next_to_reversals_is_doubtful(share, sure):
+    look = scene(0.4)
+    distance = share * float(np.ptp(look.dataset.state.position[:, 0]))
+    at = Setting(look.dataset, look.operating_point, (1,), {"presliding_distance": distance})
+    solved = FittedCause((1,), np.ones(1), 1e-6 * np.eye(1), dict(at.scalars), {})
+    assert FrictionPresliding().admissible(solved)
+    assert FrictionPresliding().represented(at, solved) is sure
 
 
 @pytest.mark.parametrize(
