@@ -141,8 +141,8 @@ DOUBTS: tuple[Exclusion, ...] = (
     ),
     Exclusion(
         "friction_presliding",
-        "the distance is a five-thousandth of the joint's range or less",
-        "it is a step next to reversals, where much else leaves a residual",
+        f"the level is less than {ADMISSIBLE.level_deviations:g} standard deviations",
+        "it may as well be Coulomb friction, which the model has",
     ),
     Exclusion(
         "encoder_eccentricity",

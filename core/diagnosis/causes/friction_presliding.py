@@ -7,6 +7,7 @@ import numpy as np
 
 from ...dynamics.term import Term
 from ...dynamics.terms.friction_presliding import Presliding
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Scalars, Setting
 from .shared.own_joint import OwnJointCause, geometric_grid
 
@@ -39,9 +40,10 @@ class FrictionPresliding(OwnJointCause):
         return super().admissible(solved) and bool(solved.values[0] > 0.0)
 
     def represented(self, at: Setting, solved: FittedCause) -> bool:
-        """Doubt a distance that is no longer than the shortest scanned: it is a step next to reversals."""
-        shortest = self.grid(at)[0]["presliding_distance"]
-        return solved.scalars["presliding_distance"] > shortest
+        """Doubt a level that may as well be Coulomb friction, which the model has."""
+        del at
+        level = self.by_name(solved)["coulomb_level"]
+        return level.value >= ADMISSIBLE.level_deviations * level.standard_deviation
 
     def statement(self, solved: FittedCause) -> str:
         """State level and presliding distance."""
