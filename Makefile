@@ -46,8 +46,8 @@ serve: $(READY) ## start the service on loopback and print its URL
 	$(RUN) -m veritorque serve
 
 # A third of what tests take is waiting for services and browsers: three of them keep two processors busy.
-test: $(READY) ## run every test (WORKERS=n at the same time, 3 by default)
-	$(RUN) -m pytest -n $(or $(WORKERS),3) $(ARGS)
+test: $(READY) ## run every test (WORKERS=n at the same time, 2 by default)
+	$(RUN) -m pytest -n $(or $(WORKERS),2) $(ARGS)
 
 check: style types imports drift containers docs ## style, types, import contracts, API document, container files, site
 
