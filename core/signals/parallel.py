@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays import InstantMask, Instants, JointSeries, KeptSeries, Matrix, Samples, Series
-from ..numerics.recursions import carry_decays
+from ..numerics.decays import carry_decays
 from .state import MotionState
 from .zero_phase import Modes
 
