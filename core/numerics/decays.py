@@ -1,4 +1,4 @@
-"""Carry decaying sums from block to block of many series, compiled: each needs that of the block beside it."""
+"""Carry decaying sums from block to block of many series, compiled: each needs those of the one beside it."""
 
 # ruff: noqa: ANN001  # numba reads types from its own signatures
 # Nor does mypy read those signatures:
