@@ -180,14 +180,17 @@ def _solve_with_light_links(programme: Programme, solver: str, least: float) -> 
     -----
     `least` is the cost of the unconstrained optimum. The margin is a share of an ordinary link. A point mass
     or a light tip has less, and keeping it above contradicts the log. Where every consistent
-    robot contradicts the log, the margin is kept.
+    robot contradicts the log, or with less of it no accurate optimum is found, the margin is kept.
     """
     solution = solve(programme, solver)
     cost = programme.cost(solution)
     if programme.bounds.margin != DEFAULT_MARGIN or cost <= MARGIN_COST * least:
         return solution
     lighter = replace(programme, bounds=replace(programme.bounds, margin=LIGHT_MARGIN))
-    answer = solve(lighter, solver)
+    try:
+        answer = solve(lighter, solver)
+    except SolverError:
+        return solution
     return answer if cost - programme.cost(answer) > 0.5 * (cost - least) else solution
 
 

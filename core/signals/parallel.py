@@ -12,7 +12,6 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays import InstantMask, Instants, JointSeries, KeptSeries, Matrix, Samples, Series
-from ..numerics.decays import carry_decays
 from .state import MotionState
 from .zero_phase import Modes
 
@@ -97,6 +96,8 @@ class ParallelFilter:
         whole
             Whether all are made at once.
         """
+        from ..numerics.decays import carry_decays  # compiled: who only admits a request loads no compiler
+
         before, blocks = -(-min(self.reach, max(first, 0)) // self._length), -(-kept // _ROWS)
         beyond = max(samples - first - blocks * self._length, 0)
         total = max(before + blocks + -(-min(self.reach, beyond) // self._length), 1)

@@ -51,6 +51,20 @@ def test_a_margin_that_was_asked_for_is_kept_and_so_is_the_default_where_it_is_n
     assert found.solution.margin == DEFAULT_MARGIN
 
 
+def test_the_default_margin_is_kept_where_a_smaller_one_has_no_accurate_optimum(monkeypatch):
+    world = world_of(planar_robot(), samples=200)
+
+    def solve(programme: Programme, solver: str) -> Solution:
+        if programme.bounds.margin == LIGHT_MARGIN:
+            raise refusal("stopped", status="AlmostSolved", solver=solver, iterations=30)
+        zeros = np.zeros(len(world.base.model.parameters))
+        return Solution(zeros, "optimal", 1, "none", programme.bounds.margin)
+
+    monkeypatch.setattr(module, "solve", solve)
+    found = module.estimate(world.base, world.system, world.prior, EstimateOptions())
+    assert found.solution.margin == DEFAULT_MARGIN
+
+
 def test_no_refusal_of_a_solver_names_the_motion_as_its_reason():
     for kind in ("inaccurate", "stopped"):
         said = refusal(kind, status="", solver="", iterations=0)
