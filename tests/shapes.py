@@ -15,7 +15,7 @@ from typing import Any
 
 from beartype import beartype
 
-CALLS = 10
+CALLS = 4
 """How often a function is checked in a test."""
 
 
