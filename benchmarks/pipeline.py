@@ -18,6 +18,7 @@ from veritorque.core.signals.state import MotionState
 
 TRIM_SECONDS = 2.0
 ORDER, CUTOFF_HZ, POSITION_CUTOFF_HZ, DECIMATION = 5, 10.0, 50.0, 10
+DIFFERENCE = np.array([1.0, -9.0, 45.0, 0.0, -45.0, 9.0, -1.0]) / 60.0
 OPTIONS = FilterOptions(
     median_order=1,
     cutoff_hz=CUTOFF_HZ,
@@ -55,15 +56,21 @@ def run(*, quick: bool) -> list[Figure]:
 def _peer(scene: Scene, position: np.ndarray, torque: np.ndarray) -> np.ndarray:
     low = signal.butter(ORDER, POSITION_CUTOFF_HZ, fs=RATE_HZ, output="sos")
     smooth = signal.sosfiltfilt(low, position, axis=0)
-    velocity, acceleration = np.zeros_like(smooth), np.zeros_like(smooth)
-    velocity[1:-1] = (smooth[2:] - smooth[:-2]) * RATE_HZ / 2.0
-    acceleration[2:-2] = (velocity[3:-1] - velocity[1:-3]) * RATE_HZ / 2.0
+    velocity = _differentiated(smooth)
+    acceleration = _differentiated(velocity)
     W = base_columns(pinocchio_model(scene.robot), scene.base, MotionState(smooth, velocity, acceleration))
     band = signal.butter(ORDER, CUTOFF_HZ, fs=RATE_HZ, output="sos")
     filtered = signal.sosfiltfilt(band, W, axis=0)[::DECIMATION]
     target = signal.sosfiltfilt(band, torque, axis=0)[::DECIMATION]
     edge = round(TRIM_SECONDS * RATE_HZ / DECIMATION)
     return _solved(filtered[edge:-edge].reshape(-1, W.shape[2]), target[edge:-edge].reshape(-1))
+
+
+def _differentiated(values: np.ndarray) -> np.ndarray:
+    """Differentiate by seven samples; what lies next to the ends is trimmed."""
+    return np.asarray(
+        signal.lfilter(DIFFERENCE * RATE_HZ, [1.0], np.pad(values, ((0, 3), (0, 0))), axis=0)[3:]
+    )
 
 
 def _our_rows(scene: Scene, motion: Motion) -> tuple[np.ndarray, np.ndarray]:
