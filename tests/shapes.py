@@ -15,7 +15,7 @@ from typing import Any
 
 from beartype import beartype
 
-CALLS = 4
+CALLS = 10
 """How often a function is checked in a test."""
 
 

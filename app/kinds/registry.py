@@ -1,4 +1,8 @@
-"""List the kinds of job. A new kind is one file beside this one and one line here."""
+"""List the kinds of job.
+
+A new kind is one file beside this one, which admits, computes and names the schema of its document, and one
+line here. A page or a table of its own are files of `pages` and `terminal`.
+"""
 
 from collections.abc import Mapping
 from functools import reduce

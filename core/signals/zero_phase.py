@@ -69,10 +69,6 @@ class Modes:
     """Complex, inside the unit circle; of conjugate ones that in the upper half."""
     weights: np.ndarray
 
-    def thinned(self, step: int, scale: float) -> "Modes":
-        """Give those of every so many samples of the kernel, times a scale."""
-        return Modes(self.poles**step, self.weights * scale)
-
 
 @lru_cache(maxsize=64)
 def modes(cutoff_hz: float, rate_hz: float, order: int) -> Modes:

@@ -2,6 +2,7 @@
 
 import ast
 import re
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,8 @@ ROOT = Path(__file__).parents[2]
 FOLDERS = ("core", "app", "tests", "benchmarks", "examples", "docker")
 MODULES = [ROOT / "conftest.py", *sorted(path for name in FOLDERS for path in (ROOT / name).rglob("*.py"))]
 DIRECTIVE = re.compile(
-    r"#\s*(?:ruff:\s*)?(?:noqa\b(?::[A-Z0-9, ]+)?|type: ignore\b(?:\[[^\]]*\])?|fmt: skip)"
+    r"#\s*(?:ruff:\s*)?"
+    r"(?:noqa\b(?::[A-Z0-9, ]+)?|type: ignore\b(?:\[[^\]]*\])?|fmt: skip|pragma: no cover)"
 )
 A_WORD = re.compile(r"[a-z]{3}")
 
@@ -45,6 +47,8 @@ def _says_why(call: ast.Call) -> bool:
         ("x = 1  # noqa: F401", True),
         ("x = 1  # type: ignore[attr-defined]  # noqa: SLF001", True),
         ("}  # fmt: skip", True),
+        ("def f():  # pragma: no cover", True),
+        ("def f():  # pragma: no cover  (compiled)", False),
         ("x = 1  # noqa: F401  (a fixture of both)", False),
         ("x = 1  # type: ignore[attr-defined]  # noqa: SLF001  # it has no public name", False),
         ("x = 1  # a comment", False),
@@ -62,6 +66,14 @@ def test_every_check_that_is_silenced_says_why():
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
     )
     assert [place for place, line in lines if without_reason(line)] == []
+
+
+def test_what_a_whole_module_is_spared_by_mypy_is_explained_on_the_line_above():
+    for path in MODULES:
+        lines = path.read_text(encoding="utf-8").splitlines()
+        for above, line in pairwise(lines):
+            if line.startswith("# mypy:"):
+                assert re.match(r"# [A-Z].*[a-z]{3}", above), path
 
 
 def test_every_test_that_is_left_out_says_why_and_none_is_expected_to_fail():

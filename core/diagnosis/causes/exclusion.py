@@ -12,7 +12,7 @@ from ..thresholds.checks import ALTERNATIVES
 
 @dataclass(frozen=True)
 class Exclusion:
-    """State where a cause is never named, and why."""
+    """State where a cause is never named, or doubtful, and why."""
 
     cause: str
     where: str
@@ -153,6 +153,11 @@ DOUBTS: tuple[Exclusion, ...] = (
 """Where a finding is doubtful: its confidence is 0.5 at most."""
 
 
-def exclusions(cause: str, listed: tuple[Exclusion, ...] = EXCLUSIONS) -> tuple[Exclusion, ...]:
-    """List where a cause is not named, or where it is doubtful."""
-    return tuple(entry for entry in listed if entry.cause == cause)
+def exclusions(cause: str) -> tuple[Exclusion, ...]:
+    """List where a cause is not named."""
+    return tuple(entry for entry in EXCLUSIONS if entry.cause == cause)
+
+
+def doubts(cause: str) -> tuple[Exclusion, ...]:
+    """List where a cause is doubtful."""
+    return tuple(entry for entry in DOUBTS if entry.cause == cause)

@@ -8,7 +8,7 @@ import inspect
 import sys
 from collections.abc import Mapping
 
-from .exclusion import DOUBTS, EXCLUSIONS, GENERAL, Exclusion, exclusions
+from .exclusion import GENERAL, Exclusion, doubts, exclusions
 from .imitation import Imitation, imitations
 from .protocol import Cause
 from .registry import BY_ID, ONLY_CHANGES
@@ -103,9 +103,11 @@ def _section(cause: Cause | SampleCheck) -> str:
 
 
 def _excluded(cause: str) -> str:
-    parts = ("Never named where:", EXCLUSIONS), ("Doubtful, with a confidence of 0.5 at most, where:", DOUBTS)
-    found = ((title, exclusions(cause, listed)) for title, listed in parts)
-    return "".join(f"{title}\n\n{''.join(map(_row, entries))}\n" for title, entries in found if entries)
+    parts = (
+        ("Never named where:", exclusions(cause)),
+        ("Doubtful, with a confidence of 0.5 at most, where:", doubts(cause)),
+    )
+    return "".join(f"{title}\n\n{''.join(map(_row, entries))}\n" for title, entries in parts if entries)
 
 
 def _row(entry: Exclusion) -> str:

@@ -1,4 +1,4 @@
-"""Define what every cause offers, so that a new cause is one file.
+"""Define what every cause offers. CONTRIBUTING.md says which files a new one needs.
 
 A cause is a physical hypothesis: where it can act (`sites`), which nonlinear scalars are scanned there
 (`grid`), which torque it adds per unit of its linear parameters (`term`, a function of the *predicted*

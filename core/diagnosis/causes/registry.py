@@ -1,4 +1,4 @@
-"""List the candidate causes: a new one is one file in `causes` and one line here."""
+"""List the candidate causes. CONTRIBUTING.md says what a new one needs besides its line here."""
 
 from collections.abc import Mapping
 

@@ -1,4 +1,6 @@
-"""Give the confidence of a finding: a logistic model of its evidence, calibrated on drawn logs.
+"""Give the confidence that a cause was found: a logistic model of its evidence, calibrated on drawn logs.
+
+Faults that samples show by themselves are not found by a search; theirs is 1 less their p-value.
 
 Three predictors: its likelihood ratio statistic, its BIC lead over the best alternative and over unnamed
 patterns, and whether it reduces the error on held-out rows. The coefficients stand in a file beside this

@@ -30,7 +30,7 @@ def with_reservations(found: Diagnosis, *, open_conflict: bool, doubted: bool) -
         found,
         findings=findings,
         verdict="unexplained" if claims_nothing else found.verdict,
-        # What a model shows is told at its best fit: one that fails says nothing of it.
+        # What cannot be identified is known at a good fit only, and the model does not fit.
         not_identifiable=() if failed else found.not_identifiable,
     )
 

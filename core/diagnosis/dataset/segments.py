@@ -14,7 +14,6 @@ from ...arrays import Indices, JointMask, JointSeries
 from ...log.shifted import with_later_effort
 from ...robot.model import RobotModel
 from ...signals.condition import Motion
-from ...signals.parallel import ParallelFilter
 from ...signals.segment import Segment
 from ...signals.state import MotionState
 from ..thresholds.dataset import BAND, ROWS
@@ -77,17 +76,12 @@ def _segment(
     thin = thinning(motion.log.rate_hz, recipe.cutoff_hz)
     begin = tile.first % thin
     state = tile.state.at(slice(begin, None, thin))
-    response = tile.parallel.response
-    middle = len(response) // 2
-    small = response[middle % thin :: thin]
-    scale = float(response.sum() / small.sum())
-    parallel = ParallelFilter(
-        small * scale, tile.parallel.modes.thinned(thin, scale), recipe.decimation // thin
-    )
     at = tile.first + recipe.decimation * np.arange(len(tile.time))
     settled = _settled(at, len(tile.state.position), segment.rate_hz / recipe.cutoff_hz)
     fraction = (done + np.arange(*kept)) / motion.kept
-    stretch = Stretch(state, parallel, (tile.first - begin) // thin, slice(0, len(tile.time)))
+    stretch = Stretch(
+        state, tile.parallel.thinned(thin), (tile.first - begin) // thin, slice(0, len(tile.time))
+    )
     return DatasetSegment(
         log=number,
         stretch=stretch,

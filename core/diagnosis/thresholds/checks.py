@@ -90,7 +90,8 @@ class Size:
 
     doubtful: float = 0.5
     """Probability that no finding exceeds while a conflict or more than half of a joint's torque is left,
-    while an alternative explains more, or while no held-out row shows a gain."""
+    while an alternative explains more, while no held-out row shows a gain, or where its columns do not
+    represent its size."""
     half: float = 0.5
     """Share of a joint's RMS torque, left by model and findings, from which on the model does not fit it."""
 

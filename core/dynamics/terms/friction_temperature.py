@@ -32,7 +32,11 @@ class TemperatureFriction(OneJointTerm):
 
 @dataclass(frozen=True, eq=False)
 class WarmUpFriction(OneJointTerm):
-    """Model friction over the time since `start`, s, with the time constant of the warm-up, s."""
+    """Model friction over the time since `start`, s, with the time constant of the warm-up, s.
+
+    The parameters keep the names of the form with a sensor, but are changes over the whole warm-up. Zero
+    where the motion has no time.
+    """
 
     start: float
     time_constant: float
