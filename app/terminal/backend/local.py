@@ -2,6 +2,8 @@
 
 import hashlib
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from ....core.errors import LogError, OptionError, RobotError
@@ -104,10 +106,22 @@ class LocalBackend:
         with tempfile.TemporaryDirectory() as folder:
             traces = None if report is None else Path(folder) / "residuals.parquet"
             workspace = Workspace({digest: path for path, digest in digests.items()}, traces)
-            document = compute(computation, workspace, progress)
+            with _naming_what_suggests_a_mapping():
+                document = compute(computation, workspace, progress)
             if report is not None:
                 save(report, kind.report(document, traces).encode())
             return json_bytes(document)
+
+
+@contextmanager
+def _naming_what_suggests_a_mapping() -> Iterator[None]:
+    """Name the command that suggests a mapping, where a log lacks columns of the usual names."""
+    try:
+        yield
+    except LogError as error:
+        if "looked_for" in error.evidence:
+            error.remedy += "; veritorque logs check LOG suggests a mapping"
+        raise
 
 
 def _robot_file(given: str, known: Document) -> bytes:

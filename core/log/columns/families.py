@@ -5,7 +5,7 @@ quantity, and the arm where there are several.
 """
 
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from itertools import chain
 
 from ..channels import JOINT_CHANNELS, REFERENCE_WORDS
@@ -19,6 +19,8 @@ _GERMAN = {
     "zeitstempel": "timestamp",
     "lage": "position",
     "winkel": "angle",
+    "weg": "position",
+    "hub": "position",
     "geschwindigkeit": "velocity",
     "drehzahl": "speed",
     "drehmoment": "torque",
@@ -65,10 +67,13 @@ def _parts(word: str) -> tuple[str, ...]:
 def numbered_families(names: Sequence[str]) -> dict[str, list[str]]:
     """Gather columns that differ in their last number only, in the order of that number.
 
-    A joint of another kind has another unit: brackets may differ as well where no number occurs twice.
+    A joint of another kind has another unit, and another word for the same channel: brackets and such words
+    may differ as well where no number occurs twice.
 
     Examples
     --------
+    >>> numbered_families(["A1 Moment", "A2 Moment", "A3 Kraft"])
+    {'A  Moment': ['A1 Moment', 'A2 Moment', 'A3 Kraft']}
     >>> numbered_families(["t", "q2", "q1"]), numbered_families(["q1 [deg]", "q2 [mm]"])
     ({'q ': ['q1', 'q2']}, {'q': ['q1 [deg]', 'q2 [mm]']})
     """
@@ -79,21 +84,34 @@ def numbered_families(names: Sequence[str]) -> dict[str, list[str]]:
             last = numbers[-1]
             stem = f"{name[: last.start()]} {name[last.end() :]}"
             families.setdefault(stem, []).append((int(last.group()), name))
-    merged = _of_any_unit(families)
+    merged = _merged(_merged(families, _without_unit), _quantity)
     return {stem: [name for _, name in sorted(found)] for stem, found in merged.items()}
 
 
-def _of_any_unit(families: Mapping[str, list[tuple[int, str]]]) -> dict[str, list[tuple[int, str]]]:
-    """Merge families that differ in their brackets, if they are of different joints."""
-    alike: dict[str, list[str]] = {}
+def _merged(
+    families: Mapping[str, list[tuple[int, str]]], told_by: Callable[[str], Hashable]
+) -> dict[str, list[tuple[int, str]]]:
+    """Merge families of which the same is told, if they are of different joints."""
+    alike: dict[Hashable, list[str]] = {}
     for stem in families:
-        alike.setdefault(_BRACKETS.sub(" ", stem).strip(), []).append(stem)
+        alike.setdefault(told_by(stem), []).append(stem)
     merged: dict[str, list[tuple[int, str]]] = {}
-    for bare, stems in alike.items():
+    for stems in alike.values():
         found = list(chain.from_iterable(families[stem] for stem in stems))
         is_one = len(stems) > 1 and len({number for number, _ in found}) == len(found)
-        merged |= {bare: found} if is_one else {stem: families[stem] for stem in stems}
+        largest = max(stems, key=lambda stem: len(families[stem]))
+        merged |= {_without_unit(largest): found} if is_one else {stem: families[stem] for stem in stems}
     return merged
+
+
+def _without_unit(stem: str) -> str:
+    return _BRACKETS.sub(" ", stem).strip()
+
+
+def _quantity(stem: str) -> Hashable:
+    """Give channel and arm of a name; the name where it tells no channel."""
+    channel, reference = channel_of(stem, ()), name_words(stem) & REFERENCE_WORDS
+    return stem if channel is None else (channel, arm_of(stem), frozenset(reference))
 
 
 def named_families(names: Sequence[str]) -> dict[str, list[str]]:

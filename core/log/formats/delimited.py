@@ -17,6 +17,7 @@ import pyarrow.csv as arrow_csv
 
 from ...arrays import Series
 from ...errors import LogError
+from ..defects.stretch import count_text
 from .arrow import numbers, words_for_nothing
 from .odd_rows import OddRows, find_odd_rows
 from .stamps import Clock
@@ -114,11 +115,12 @@ class DelimitedTable:
         if self.delimiter != BLANKS and not self.repeated and self.odd == OddRows():
             return file
         nothing = delimiter.encode() * (len(self.names) - 1) + b"\n"
+        left_out = dict.fromkeys((self.odd.cut, *self.odd.below), b"")
         return TidyLines(
             file,
             blanks=self.delimiter == BLANKS,
             without=self.repeated,
-            instead=dict.fromkeys(self.odd.blank, nothing) | {self.odd.cut: b""},
+            instead=dict.fromkeys(self.odd.blank, nothing) | left_out,
             skip=self.skip,
         )
 
@@ -157,7 +159,7 @@ def open_delimited(path: Path) -> DelimitedTable:
         _refuse_blanks(found, lines)
     row = found.first_row
     repeated = check_text(path, lines[found.header_at] if found.cells else "", encoding)
-    repeated -= found.header_at > 0
+    repeated = max(repeated - (found.header_at > 0), 0)
     cells = dict(zip(names, split_cells(row, found.delimiter), strict=False))
     stamps = tuple(name for name, cell in cells.items() if STAMP.fullmatch(cell))
     odd = find_odd_rows(path, encoding, found)
@@ -256,7 +258,7 @@ def _notes(found: TextHeader, stamps: Sequence[str], repeated: int) -> Iterator[
     if stamps:
         yield f"dates or times of day in {', '.join(map(repr, stamps))} read as seconds from the first on"
     if repeated:
-        yield f"the header, repeated {repeated} times between the rows, passed over"
+        yield f"the header, repeated {count_text(repeated, 'time')} between the rows, passed over"
 
 
 def _is_spaced(lines: Sequence[str]) -> bool:

@@ -2,11 +2,13 @@
 
 A recorder that is killed leaves half a row, and a serial line loses bytes. The cells of such a row may be
 those of other columns, so that none is used. It is read as a row of blanks: a log without a clock keeps its
-time, and rows without values are found and left out later. One at the very end is left out here.
+time, and rows without values are found and left out later. One at the very end is left out here, and so are
+lines of text below the table.
 """
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import islice, takewhile
 from pathlib import Path
 
 from ...errors import LogError
@@ -21,6 +23,8 @@ MOST_ODD = 0.01
 always may. Damage is rare. Where rows differ often, they have decimal commas or other columns for a time, and
 those of the right length cannot be trusted either."""
 SHOWN_LINES = 20
+MOST_BELOW = 20
+"""Up to so many lines may stand below a table: what a recorder says at the end, not text among the rows."""
 _NOTHING = frozenset(word.strip() for word in words_for_nothing())
 
 
@@ -32,6 +36,8 @@ class OddRows:
     """Lines between the first row and the last."""
     cut: int = 0
     """The last line, if it is cut short or otherwise no row; else 0."""
+    below: tuple[int, ...] = ()
+    """Lines below the table, some of which hold words where rows hold numbers."""
 
     def notes(self) -> Iterator[str]:
         """Say which rows are not read."""
@@ -44,6 +50,9 @@ class OddRows:
             )
         if self.cut:
             yield f"the last row, cut short, left out (line {self.cut})"
+        if self.below:
+            lines = count_text(len(self.below), "line")
+            yield f"{lines} below the table left out (from line {self.below[0]} on)"
 
 
 def find_odd_rows(path: Path, encoding: str, found: TextHeader) -> OddRows:
@@ -60,11 +69,31 @@ def find_odd_rows(path: Path, encoding: str, found: TextHeader) -> OddRows:
         seen.take(lines)
         if len(seen.odd) > enough:
             break
-    cut = seen.last_line if seen.odd[-1:] == [seen.last_line] or _breaks_off(seen.last, found) else 0
-    blank = tuple(line for line in seen.odd if line != cut)
+    below = _below(seen)
+    last_line, last = seen.last[-1] if seen.last else (0, b"")
+    is_cut = not below and (seen.odd[-1:] == [last_line] or _breaks_off(last, found))
+    cut = last_line if is_cut else 0
+    blank = tuple(line for line in seen.odd if line not in (cut, *below))
     if len(blank) > MOST_ODD * seen.rows:
         raise _too_many(seen, found)
-    return OddRows(blank, cut)
+    return OddRows(blank, cut, below)
+
+
+def _below(seen: "_Rows") -> tuple[int, ...]:
+    """Give the lines at the end that are no rows, if one of them holds words in the place of numbers."""
+    whole = ((line, text) for line, text in seen.last if line not in seen.odd)
+    words = {line for line, text in whole if _holds_words(text, seen.table)}
+    no_rows = takewhile(
+        lambda line: line in words or line in seen.odd, (line for line, _ in reversed(seen.last))
+    )
+    found = tuple(sorted(no_rows))
+    return found if words.intersection(found) and len(found) < min(MOST_BELOW, seen.rows) else ()
+
+
+def _holds_words(line: bytes, table: TextHeader) -> bool:
+    """Tell whether a line holds words in a column that begins with a number."""
+    pairs = zip(_cells(line, table), split_cells(table.first_row, table.delimiter), strict=False)
+    return any(is_number(first) and not (is_number(cell) or cell in _NOTHING) for cell, first in pairs)
 
 
 def _blocks(path: Path, encoding: str) -> Iterator[list[bytes]]:
@@ -87,9 +116,8 @@ class _Rows:
     """Their lines."""
     first: bytes = b""
     """The first of them."""
-    last: bytes = b""
-    """The last line that is not empty."""
-    last_line: int = 0
+    last: list[tuple[int, bytes]] = field(default_factory=list)
+    """The last lines that are not empty, with their numbers."""
     _lines: int = 0
 
     def take(self, lines: Sequence[bytes]) -> None:
@@ -107,10 +135,9 @@ class _Rows:
         self._lines += len(lines)
 
     def _keep_last(self, lines: Sequence[bytes], begin: int) -> None:
-        for place in reversed(range(begin, len(lines))):
-            if lines[place].strip():
-                self.last, self.last_line = lines[place], self._lines + place + 1
-                return
+        found = ((place, lines[place]) for place in reversed(range(begin, len(lines))))
+        new = islice(((self._lines + place + 1, line) for place, line in found if line.strip()), MOST_BELOW)
+        self.last = [*self.last, *reversed(list(new))][-MOST_BELOW:]
 
     def _doubtful(self, lines: Sequence[bytes]) -> Sequence[int]:
         """Leave out the lines that have as many separators as a row, and no quotation."""

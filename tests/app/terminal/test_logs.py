@@ -63,6 +63,13 @@ NAMES = {
 }
 
 
+def test_who_computes_with_a_foreign_file_is_told_what_suggests_its_mapping(tmp_path):
+    path = written(tmp_path / "foreign.csv", NAMES["words"], time_factor=1.0, angle_factor=1.0)
+    refused = run("identify", "yumi-left", path)
+    assert refused.exit_code == Exit.INPUT
+    assert "veritorque logs check LOG suggests a mapping" in refused.stderr
+
+
 @pytest.mark.parametrize("names", NAMES.values(), ids=list(NAMES))
 def test_the_mapping_that_is_suggested_is_one_that_can_be_used(tmp_path, names):
     path = written(tmp_path / "foreign.csv", names, time_factor=1000.0, angle_factor=57.29578)

@@ -33,6 +33,10 @@ RECORDERS = {
     "units in brackets": recorded(
         "Time [ms]", "q1 [deg]", "q2 [deg]", "Torque1 [Nm]", "Torque2 [Nm]", time_scale=1e3, scales=(DEG, DEG)
     ),
+    "a slide beside a revolute joint": recorded(
+        "Zeit [ms]", "Achse1 Winkel [deg]", "Achse2 Weg [mm]", "Achse1 Moment [Nm]", "Achse2 Kraft [N]",
+        time_scale=1e3, scales=(DEG, 1e3),
+    ),
     "units after a sign": recorded(
         "time_us", "pos_deg_1", "pos_deg_2", "tau_mNm_1", "tau_mNm_2", time_scale=1e6,
         scales=(DEG, DEG, 1e3, 1e3),

@@ -175,6 +175,7 @@ def test_a_few_rows_of_another_length_are_listed_by_line_and_cost_nothing_but_th
     assert "3 rows with another number of cells than there are columns read as blank" in said
     assert "(lines 403, 404, 903)" in said
     assert f"the last row, cut short, left out (line {len(ROWS) + 2})" in said
+    assert "repeated" not in said
     assert [(defect.kind, defect.count) for defect in log.defects[1:]][:1] == [("missing_values", 3)]
 
 
@@ -183,6 +184,37 @@ def test_a_last_row_that_breaks_off_within_its_last_number_is_left_out(last, tmp
     path = tmp_path / "log.csv"
     path.write_text("\n".join([*lines()[:-1], ",".join([*ROWS[-1][:-1], last])]))
     assert read_log(path).samples == len(ROWS) - 1
+
+
+@pytest.mark.parametrize("delimiter", [",", ";", "\t"])
+@pytest.mark.parametrize(
+    "below",
+    [
+        ["end of measurement{}"],
+        ["end{}", "rows;750{}", "stopped by operator"],
+        ["", "stopped by operator", "end{}", ""],
+    ],
+    ids=["one", "three", "between empty ones"],
+)
+def test_lines_of_text_below_the_table_are_left_out_and_listed(below, delimiter, tmp_path):
+    """They have as many cells as a row, or not; whatever stands above them is read as before."""
+    path = tmp_path / "log.txt"
+    filled = [line.format(delimiter * (len(ROWS[0]) - 1)) for line in below]
+    path.write_text("\n".join([*lines(delimiter), *filled, ""]))
+    log = read_log(path)
+    np.testing.assert_allclose(whole_rows(log).torque[:, 1], COLUMNS["tau_2"], atol=1e-9)
+    assert "below the table left out" in log.defects[0].statement
+
+
+@pytest.mark.parametrize("where", [1, 400, len(ROWS) - 1])
+def test_words_in_one_cell_between_the_rows_are_refused_with_what_was_found(where, tmp_path):
+    text = lines()
+    text[where] = ",".join([*ROWS[where - 1][:2], "fault", *ROWS[where - 1][3:]])
+    path = tmp_path / "log.csv"
+    path.write_text("\n".join(text))
+    with pytest.raises(LogError, match="not made of numbers") as refusal:
+        read_log(path)
+    assert refusal.value.evidence["found"] == "fault"
 
 
 @pytest.mark.parametrize("more", [0, 1])
