@@ -8,15 +8,15 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from .conflicts.check import Conflicts, check
+from .conflicts.doubt import is_doubtful
 from .diagnosis.checks.reservations import with_reservations
 from .diagnosis.diagnose import diagnose as find_causes
 from .diagnosis.problem import DiagnosisProblem
 from .diagnosis.result import Diagnosis
-from .document.conflicts import conflict_rows, with_conflicts
+from .document.conflicts import because_of, conflict_rows, with_conflicts
 from .document.diagnosis import diagnosis_document
-from .document.identification import grouping_row, identification_document
+from .document.identification import identification_document
 from .document.model.reference import reference_from_document
-from .document.numbers import plain
 from .document.version import product_version
 from .dynamics.model import standard_model
 from .errors import OptionError, SolverError
@@ -29,7 +29,7 @@ from .extension.reserved import reserved
 from .extension.result import Extension
 from .identification.admission import admit, known_log
 from .identification.doubts import contradictions
-from .identification.identify import Fit, Progress, fit, judge
+from .identification.identify import Fit, Progress, fit, judge, no_progress
 from .identification.options import REPORT, IdentifyOptions, parse_diagnose_options, parse_options
 from .identification.reference import PRIOR, Reference, reference_from_prior
 from .identification.reference_score import score_reference
@@ -43,7 +43,7 @@ from .report.traces.writing import write_traces
 from .robot.model import RobotModel
 from .signals.several import condition_all
 
-__all__ = ["IdentifyRequest", "base_parameters", "identify", "identify_in_full", "parse_options"]
+__all__ = ["IdentifyRequest", "identify", "identify_in_full", "parse_options"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +87,7 @@ def identify(request: IdentifyRequest, progress: Progress | None = None) -> dict
         Whatever stands in the way, with cause, evidence and remedy.
     """
     task = _Task(request, parse_options(request.options))
-    found, conflicts = _identify(task, progress or _no_progress)
+    found, conflicts = _identify(task, progress or no_progress)
     write_traces(task.asked.traces, found)
     document = identification_document(found, version=product_version(), options=task.options.given)
     return with_conflicts(document, conflict_rows(conflicts, request.robot, request.logs))
@@ -109,7 +109,7 @@ def identify_with_conflicts(
         Whether to look for conflicts even where nothing gives reason to.
     """
     task = _Task(request, parse_options(request.options))
-    return _identify(task, progress or _no_progress, doubted=doubted)
+    return _identify(task, progress or no_progress, doubted=doubted)
 
 
 @on_one_thread()
@@ -131,24 +131,36 @@ class _Settled:
 def _settle(
     task: _Task, tell: Progress, reference: Reference | None = None, *, doubted: bool = False
 ) -> _Settled:
-    """Fit once, correct what robot and logs disagree in, and fit again where there is any such thing."""
-    first = fit(_prepare(task, tell, reference), task.options, tell)
-    return _corrected(task, first, tell, reference, doubted=doubted)
+    """Fit once, correct what robot and logs disagree in, and fit again where there is any such thing.
+
+    A wrong unit, say, may let the first fit fail.
+    """
+    problem, logs = _prepare(task, tell, reference), task.asked.logs
+    try:
+        first = fit(problem, task.options, tell)
+    except SolverError as error:
+        conflicts, corrected = _corrected(task, problem, tell, reference, doubted=True)
+        if corrected is None:
+            raise because_of(conflict_rows(conflicts, task.asked.robot, logs), error) from None
+        return corrected
+    doubted = doubted or is_doubtful(first, logs)
+    conflicts, corrected = _corrected(task, problem, tell, reference, doubted=doubted)
+    return corrected or _Settled(task, first, conflicts)
 
 
 def _corrected(
-    task: _Task, first: Fit, tell: Progress, reference: Reference | None = None, *, doubted: bool
-) -> _Settled:
-    """Look for what robot and logs disagree in, correct it, and fit again.
+    task: _Task, problem: Problem, tell: Progress, reference: Reference | None = None, *, doubted: bool
+) -> tuple[Conflicts, _Settled | None]:
+    """Look for what robot and logs disagree in; correct it and fit again, or give None where nothing is.
 
     Against a reference nothing is corrected: the reference is of the robot as it is described.
     """
     asked, options = task.asked, task.options
     tell("check", 0.62)
-    conflicts = check(first, asked.logs, options.terms, doubted=doubted)
+    conflicts = check(problem, asked.logs, options.terms, doubted=doubted)
     setup = conflicts.setup
     if setup is None or reference is not None or options.conflicts == REPORT:
-        return _Settled(task, first, conflicts)
+        return conflicts, None
     logs = tuple(assigned(log, setup.assignment) for log in asked.logs)
     corrected = replace(task, asked=replace(asked, robot=setup.robot, logs=logs))
 
@@ -156,7 +168,7 @@ def _corrected(
         tell("correct", 0.63 + 0.05 * done)
 
     again = fit(_prepare(corrected, correct), options, correct)
-    return _Settled(corrected, again, replace(conflicts, applied=True))
+    return conflicts, _Settled(corrected, again, replace(conflicts, applied=True))
 
 
 def check_reference(request: IdentifyRequest) -> None:
@@ -200,7 +212,7 @@ def diagnose(request: IdentifyRequest, progress: Progress | None = None) -> dict
         Whatever stands in the way, with cause, evidence and remedy.
     """
     task = _Task(request, parse_diagnose_options(request.options))
-    found, conflicts = _diagnose(task, progress or _no_progress)
+    found, conflicts = _diagnose(task, progress or no_progress)
     write_traces(task.asked.traces, found.before, found)
     document = diagnosis_document(found, version=product_version(), options=task.options.given)
     return with_conflicts(document, conflict_rows(conflicts, request.robot, request.logs))
@@ -208,7 +220,7 @@ def diagnose(request: IdentifyRequest, progress: Progress | None = None) -> dict
 
 def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None) -> Extension:
     """Identify, diagnose, extend and identify again; give every chapter's result."""
-    return _diagnose(_Task(request, parse_diagnose_options(request.options)), progress or _no_progress)[0]
+    return _diagnose(_Task(request, parse_diagnose_options(request.options)), progress or no_progress)[0]
 
 
 @on_one_thread()
@@ -222,8 +234,9 @@ def _diagnose(task: _Task, tell: Progress) -> tuple[Extension, Conflicts]:
     if found.verdict != "nothing_found" and not settled.conflicts.searched and reference is None:
         # What a wrong set-up leaves, as little as it may be on an arm of two joints, resembles a cause.
         still = _scale_progress(tell, 0.78, 0.0)
-        settled = _corrected(task, settled.fit, still, doubted=True)
-        if settled.conflicts.applied:
+        conflicts, corrected = _corrected(task, settled.fit.problem, still, doubted=True)
+        settled = corrected or replace(settled, conflicts=conflicts)
+        if corrected is not None:
             before, found = _judge_and_search(settled, reference, still, still)
     return _explain(settled, before, found, reference, tell), settled.conflicts
 
@@ -284,17 +297,3 @@ def _prepare(task: _Task, tell: Progress, reference: Reference | None = None) ->
         )
     base = base_model(model) if reference is None else reference.base
     return Problem(base, motions, held_out)
-
-
-def base_parameters(robot: RobotModel) -> dict[str, object]:
-    """Give the base parameters that a robot's structure allows, with their groupings."""
-    base = base_model(standard_model(robot))
-    rows = [grouping_row(base, row) for row in range(len(base.kept))]
-    counts = {"standard": len(base.model.parameters), "base": len(base.kept)}
-    without = [base.model.parameters[column].name for column in base.without_effect]
-    document = {"counts": counts, "rank": base.rank, "base_parameters": rows, "without_effect": without}
-    return {key: plain(value) for key, value in document.items()}
-
-
-def _no_progress(_stage: str, _fraction: float) -> None:
-    pass

@@ -13,7 +13,7 @@ _HOMES = {
     "Result": "app.client.result",
     "RobotModel": "core.robot.model",
     "VeritorqueError": "core.errors",
-    "base_parameters": "core.study",
+    "base_parameters": "core.document.base_parameters",
     "builtin_robot": "core.robot.builtin",
     "builtin_robots": "core.robot.builtin",
     "diagnose": "core.study",

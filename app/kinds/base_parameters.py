@@ -12,7 +12,7 @@ def base_parameters(description: Document) -> Document:
     RobotError
         If the description cannot be used.
     """
-    from ...core import study
+    from ...core.document import base_parameters as written
 
-    document: Document = study.base_parameters(robot_from_description(description))
+    document: Document = written.base_parameters(robot_from_description(description))
     return document

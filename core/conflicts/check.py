@@ -3,9 +3,8 @@
 from dataclasses import dataclass
 from itertools import takewhile
 
-from ..identification.identify import Fit
+from ..estimate.problem import Problem
 from ..log.model import JointLog
-from .doubt import is_doubtful
 from .path import FoundConflict
 from .samples import sampled
 from .search import find_conflicts
@@ -39,16 +38,12 @@ class Conflicts:
 
 
 def check(
-    fit: Fit, logs: tuple[JointLog, ...], terms: tuple[str, ...] | None, *, doubted: bool = False
+    problem: Problem, logs: tuple[JointLog, ...], terms: tuple[str, ...] | None, *, doubted: bool
 ) -> Conflicts:
-    """Look for conflicts where something is in doubt: a plain fit, a log's numbers, or what a caller says.
-
-    Stamps are always compared.
-    """
+    """Look for conflicts where something is in doubt (see `is_doubtful`); stamps are always compared."""
     factors = tuple(stamp_factor(log) for log in logs)
-    if not (doubted or is_doubtful(fit, logs)):
+    if not doubted:
         return Conflicts((), factors, searched=False)
-    problem = fit.problem
     trials = Trials(sampled(problem.motions, problem.held_out), terms)
     described = Setup.as_described(problem.base.model.robot)
     factor = next((factor for factor in factors if factor is not None), None)

@@ -9,6 +9,7 @@ from ..conflicts.check import Conflicts
 from ..conflicts.conflict import Hypothesis
 from ..conflicts.path import FoundConflict
 from ..conflicts.setup import Setup
+from ..errors import SolverError
 from ..log.columns.assignment import assigned, mapping_of
 from ..log.model import JointLog
 from ..robot.joint_units import prismatic_numbers
@@ -49,6 +50,17 @@ def conflict_sentence(row: dict[str, object]) -> str:
     return (
         f"Robot and log disagree: {row['statement']}; corrected, the mean error falls from {before:.3g} to "
         f"{after:.3g} %. {end}"
+    )
+
+
+def because_of(rows: list[dict[str, object]], failure: SolverError) -> SolverError:
+    """Name the conflicts that stand before a fit which failed; the failure itself where there are none."""
+    if not rows:
+        return failure
+    return SolverError(
+        failure.cause,
+        evidence=failure.evidence | {"conflicts": [row["statement"] for row in rows]},
+        remedy=f"robot and log disagree: {'; '.join(str(row['remedy']) for row in rows)}",
     )
 
 

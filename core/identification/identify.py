@@ -27,6 +27,10 @@ from .result import Identification
 Progress = Callable[[str, float], None]
 
 
+def no_progress(_stage: str, _fraction: float) -> None:
+    """Take a report of progress and do nothing with it."""
+
+
 @dataclass(frozen=True, eq=False)
 class Fit:
     """Hold the solution of a problem."""

@@ -13,6 +13,7 @@ from ..arrays import JointVector
 from ..errors import LogError
 from .channels import TIME
 from .columns.binding import Binding
+from .columns.layout import Layout
 from .columns.suggestion import explained, suggest_mappings, suggest_units
 from .model import JointLog
 from .reader import bind_columns, open_table, read_table
@@ -25,6 +26,7 @@ class Reach:
     """Hold the smallest and largest value of a channel, joint by joint, in SI."""
 
     channel: str
+    units: tuple[str, ...]
     low: JointVector
     high: JointVector
 
@@ -76,14 +78,19 @@ def check_log(path: Path, *, mapping: Mapping[str, object] | None = None) -> Log
         return LogCheck(form.name, table.names, recognised, refusal=error)
     recognised = tuple(bound for bound in recognised if bound.name in (TIME, *log.channels))
     units = None if mapping else suggest_units(table, layout, log.defects)
-    return LogCheck(form.name, table.names, recognised, log, _reach(log), suggestion=units)
+    return LogCheck(form.name, table.names, recognised, log, _reach(log, layout), suggestion=units)
 
 
-def _reach(log: JointLog) -> tuple[Reach, ...]:
-    names = list(log.channels)
+def _reach(log: JointLog, layout: Layout) -> tuple[Reach, ...]:
+    names, units = list(log.channels), layout.si_units()
     pieces = [_extremes(log, names, start) for start in range(0, log.samples, PIECE_ROWS)]
     return tuple(
-        Reach(name, np.min([low for low, _ in piece], axis=0), np.max([high for _, high in piece], axis=0))
+        Reach(
+            name,
+            units[name],
+            np.min([low for low, _ in piece], axis=0),
+            np.max([high for _, high in piece], axis=0),
+        )
         for name, piece in zip(names, zip(*pieces, strict=True), strict=True)
     )
 

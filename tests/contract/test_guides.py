@@ -65,7 +65,7 @@ def test_the_urdf_of_the_guide_is_accepted_and_its_inertials_become_the_belief()
 
 
 def test_the_coupled_robot_of_the_guide_has_the_sixty_base_parameters_of_the_published_table():
-    from veritorque.core.study import base_parameters
+    from veritorque.core.document.base_parameters import base_parameters
 
     (text,) = (text for text in blocks(ROBOTS, "json") if "couplings" in text)
     # Source: TX40_bp_5.csv of the data set behind Janot, Vandanjon & Gautier 2014; a count, hence exact.

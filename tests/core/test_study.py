@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters, wrist_robot
+from veritorque.core.document.base_parameters import base_parameters
 from veritorque.core.document.version import product_version
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.errors import LogError, OptionError, VeritorqueError
@@ -18,7 +19,7 @@ from veritorque.core.robot.model import RobotModel
 from veritorque.core.signals import condition as conditioning
 from veritorque.core.signals import segment
 from veritorque.core.signals.parallel import Tile
-from veritorque.core.study import IdentifyRequest, base_parameters, identify, identify_in_full
+from veritorque.core.study import IdentifyRequest, identify, identify_in_full
 
 MODEL = standard_model(planar_robot())
 NOISE = 0.02

@@ -5,7 +5,6 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from ....core.log.channels import CHANNELS
 from ....core.log.check import LogCheck, Reach
 from ....core.log.columns.binding import Binding
 from ....core.log.defects.stretch import count_text
@@ -61,7 +60,7 @@ def document_of(path: Path, seen: LogCheck) -> dict[str, Any]:
             "joints": log.joints,
             "segments": log.segments,
             "ignored_columns": log.ignored_columns,
-            "reach": [{"channel": span.channel, "low": span.low, "high": span.high} for span in seen.reach],
+            "reach": [asdict(span) for span in seen.reach],
         }
     if seen.refusal is not None:
         told["problem"] = {
@@ -74,14 +73,10 @@ def document_of(path: Path, seen: LogCheck) -> dict[str, Any]:
 
 def _reach_lines(reach: Sequence[Reach]) -> Iterator[str]:
     if reach:
-        yield "  joint " + "".join(f"{_heading(span.channel):>26}" for span in reach)
+        yield "  joint " + "".join(f"{span.channel:>30}" for span in reach)
         for joint in range(len(reach[0].low)):
-            cells = (f"{span.low[joint]:.4g} .. {span.high[joint]:.4g}" for span in reach)
-            yield f"  {joint + 1:>5} " + "".join(f"{cell:>26}" for cell in cells)
-
-
-def _heading(channel: str) -> str:
-    return f"{channel}, {CHANNELS[channel].quantity.revolute}"
+            cells = (f"{span.low[joint]:.4g} .. {span.high[joint]:.4g} {span.units[joint]}" for span in reach)
+            yield f"  {joint + 1:>5} " + "".join(f"{cell:>30}" for cell in cells)
 
 
 def _units(channel: Binding) -> str:

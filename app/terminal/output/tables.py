@@ -13,8 +13,8 @@ from .warnings import print_warnings
 Document = Mapping[str, Any]
 FRICTION: Final = ("OFF", "FC", "FV")
 READ_OTHERWISE: Final = (
-    "rearranged", "missing_values", "doubled_rows", "blank_rows", "bad_end", "time_restarts", "shuffled_rows",
-    "broken_stamps",
+    "rearranged", "missing_values", "doubled_rows", "blank_rows", "lost_values", "bad_end", "time_restarts",
+    "shuffled_rows", "broken_stamps",
 )  # fmt: skip  # a table
 """Defects of a log by which it was read otherwise than it stands in its file."""
 

@@ -70,24 +70,25 @@ def find_odd_rows(path: Path, encoding: str, found: TextHeader) -> OddRows:
         if len(seen.odd) > enough:
             break
     below = _below(seen)
-    last_line, last = seen.last[-1] if seen.last else (0, b"")
-    is_cut = not below and (seen.odd[-1:] == [last_line] or _breaks_off(last, found))
-    cut = last_line if is_cut else 0
+    cut = 0 if below else _cut_line(seen)
     blank = tuple(line for line in seen.odd if line not in (cut, *below))
     if len(blank) > MOST_ODD * seen.rows:
         raise _too_many(seen, found)
     return OddRows(blank, cut, below)
 
 
+def _cut_line(seen: "_Rows") -> int:
+    """Give the last line if it is cut short or otherwise no row; else 0."""
+    line, text = seen.last[-1] if seen.last else (0, b"")
+    return line if seen.odd[-1:] == [line] or _breaks_off(text, seen.table) else 0
+
+
 def _below(seen: "_Rows") -> tuple[int, ...]:
     """Give the lines at the end that are no rows, if one of them holds words in the place of numbers."""
-    whole = ((line, text) for line, text in seen.last if line not in seen.odd)
-    words = {line for line, text in whole if _holds_words(text, seen.table)}
-    no_rows = takewhile(
-        lambda line: line in words or line in seen.odd, (line for line, _ in reversed(seen.last))
-    )
-    found = tuple(sorted(no_rows))
-    return found if words.intersection(found) and len(found) < min(MOST_BELOW, seen.rows) else ()
+    words = {line for line, text in seen.last if line not in seen.odd and _holds_words(text, seen.table)}
+    no_rows = words.union(seen.odd)
+    found = tuple(takewhile(no_rows.__contains__, (line for line, _ in reversed(seen.last))))
+    return found[::-1] if words.intersection(found) and len(found) < min(MOST_BELOW, seen.rows) else ()
 
 
 def _holds_words(line: bytes, table: TextHeader) -> bool:

@@ -144,4 +144,5 @@ def _jumps(values: JointSeries) -> tuple[InstantMask, InstantSeries, JointVector
     least = np.maximum(least, np.where(np.isfinite(grid), GRID_STEPS * grid, np.inf))
     own, onward = bends[:-2], np.maximum(bends[1:-1], bends[2:])
     jumps = (own > least) & (own > ISOLATED * onward) & (steps[:-3] > DISPLACED * own)
-    return jumps, own / np.maximum(usual, np.finfo(float).tiny), least
+    resolved = np.maximum(np.finfo(float).eps * np.ptp(values, axis=0), np.finfo(float).tiny)
+    return jumps, own / np.maximum(usual, resolved), least

@@ -1,20 +1,24 @@
 """Find rows inside a log that say nothing: written twice, stamp and all, or a lost packet's zeros.
 
 A recorder writes a row again where it flushes twice, and zeros where a packet is lost; counted from another
-zero, these are one row that comes again and again. Neither is a defect of the clock or of the motion, so that
-both are left out before these are judged.
+zero, these are one row that comes again and again. One channel may be lost alone. None of this is a defect of
+the clock or of the motion, so that it is left out before these are judged.
 """
 
 import numpy as np
 
 from ...arrays import Indices, JointMask, JointSeries, JointVector, Mask, SampleMask, Samples
-from ..defects.stretch import JUMP_FACTOR, USUAL_SHARE, count_text
+from ..defects.stretch import GRID_STEPS, JUMP_FACTOR, USUAL_SHARE, count_text
 from ..model import STANDING_ROWS, Defect, LogRows, rows_at
 
 _STATEMENTS = {
     "doubled_rows": "repeat the row before, stamp and all, and are left out",
     "blank_rows": "hold one value per column, mostly 0, far from the rows on either side, and are left out",
+    "lost_values": "hold one value in a position, torque or current, mostly 0, far from those on either "
+    "side, and are left out",
 }
+FEWEST_LOST = 3
+"""A channel that is lost for fewer samples has a spike: the median of five takes its place."""
 
 
 class IdleRows:
@@ -26,7 +30,9 @@ class IdleRows:
 
     def take(self, rows: LogRows, first: int) -> None:
         """Take the next rows, the first of which has this number."""
-        for kind, marks in (("doubled_rows", _doubled(rows, self._last)), ("blank_rows", _blank(rows))):
+        doubled, blank = _doubled(rows, self._last), _blank(rows)
+        lost = _lost(rows) & ~blank
+        for kind, marks in (("doubled_rows", doubled), ("blank_rows", blank), ("lost_values", lost)):
             if marks.any():
                 self._found[kind].append(first + np.flatnonzero(marks))
         self._last = rows_at(rows, slice(-1, None))
@@ -62,7 +68,7 @@ def _blank(rows: LogRows) -> SampleMask:
 
     A row that is held because the recorder missed some continues the row before it, and is none of them.
     """
-    channels = [values for values in (rows.position, rows.torque, rows.current) if values is not None]
+    channels = _measured(rows)
     held = np.zeros(len(rows.time), dtype=bool)
     held[1:] = _everywhere([values[1:] == values[:-1] for values in channels])
     zero = _everywhere([values == 0.0 for values in channels])
@@ -72,9 +78,46 @@ def _blank(rows: LogRows) -> SampleMask:
         into, out = (np.abs(values[starts] - values[beside]) for beside in (starts - 1, stops))
         far = JUMP_FACTOR * _usual_step(values[~held & ~zero])
         leapt |= np.any(np.minimum(into, out) > far, axis=1)
-    edges = np.zeros(len(held) + 1, dtype=int)
-    np.add.at(edges, starts[leapt], 1)
-    np.add.at(edges, stops[leapt], -1)
+    return _between(starts[leapt], stops[leapt], len(held))
+
+
+def _lost(rows: LogRows) -> SampleMask:
+    """Mark short runs of one value that a channel of one joint leaps into and out of."""
+    marks = np.zeros(len(rows.time), dtype=bool)
+    for values in _measured(rows):
+        same = values[1:] == values[:-1]
+        for joint in np.flatnonzero(np.any(same[1:] & same[:-1], axis=0)):
+            starts, stops = _lost_runs(values[:, joint])
+            inside = _are_inside(rows.time, starts, stops)
+            marks |= _between(starts[inside], stops[inside], len(marks))
+    return marks
+
+
+def _lost_runs(values: Samples) -> tuple[Indices, Indices]:
+    """Give the first samples of such runs, and the samples behind them.
+
+    What a step usually is, is told by the other steps: where there are none, a channel is made of such runs.
+    """
+    edges = np.flatnonzero(values[1:] != values[:-1]) + 1
+    steps = np.abs(values[edges] - values[edges - 1])
+    short = (np.diff(edges) >= FEWEST_LOST) & (np.diff(edges) <= STANDING_ROWS)
+    others = ~(np.append(short, False) | np.append(False, short)) & np.isfinite(steps)
+    if not others.any():
+        return edges[:0], edges[:0]
+    far = max(JUMP_FACTOR * np.quantile(steps[others], USUAL_SHARE), GRID_STEPS * steps[others].min())
+    lost = short & (np.minimum(steps[:-1], steps[1:]) > far)
+    return edges[:-1][lost], edges[1:][lost]
+
+
+def _measured(rows: LogRows) -> list[JointSeries]:
+    return [values for values in (rows.position, rows.torque, rows.current) if values is not None]
+
+
+def _between(starts: Indices, stops: Indices, samples: int) -> SampleMask:
+    """Mark the samples of runs."""
+    edges = np.zeros(samples + 1, dtype=int)
+    np.add.at(edges, starts, 1)
+    np.add.at(edges, stops, -1)
     return np.asarray(np.cumsum(edges[:-1]) > 0)
 
 

@@ -18,6 +18,9 @@ from .words import (
     share,
 )
 
+EVEN = 0.5
+"""A cause of no more confidence than this is possible, and not found."""
+
 
 def headline(document: Document) -> str:
     """Give the result in one or two sentences; what the model does not predict at all comes last."""
@@ -35,30 +38,37 @@ def _verdict(document: Document) -> str:
     diagnosis, left = document["diagnosis"], document["diagnosis"]["unexplained"]["joints"]
     name, other = document["robot"]["name"], reference(document)
     if diagnosis["findings"]:
-        sentence = f"{_subject(document)}: {_titles(diagnosis['findings'])}."
+        sentence = f"{_found(document)}."
         unexplained = diagnosis["verdict"] == "unexplained" and left
         return sentence + (
             f" Part of the residual on {joints(left)} has no known cause." if unexplained else ""
         )
     if diagnosis["verdict"] == "nothing_found":
-        return (
-            f"No difference found between {name} and {other}."
-            if other
-            else f"No cause of simulation error found for {name}."
-        )
+        return f"No difference found between {name} and {other}." if other else f"No {_subject(document)}."
     what = (
         f"Unexplained difference between {name} and {other}" if other else f"Unexplained residual of {name}"
     )
     return f"{what} in the torque of {joints(left)}: no known cause explains it."
 
 
-def _subject(document: Document) -> str:
+def _found(document: Document) -> str:
+    """Name the causes that are more likely than not, then those that are only possible."""
+    findings = document["diagnosis"]["findings"]
+    likely = [finding for finding in findings if finding["confidence"] > EVEN]
+    possible = [finding for finding in findings if finding["confidence"] <= EVEN]
+    others = f"; possible: {_titles(possible)}" if possible else ""
+    if not likely:
+        return f"No {_subject(document)} with more than {share(EVEN)} confidence{others}"
+    size = len(_joints_by_title(likely))
+    subject = _subject(document, plural="s" * (size > 1))
+    return f"{count(size).capitalize()} {subject}: {_titles(likely)}{others}"
+
+
+def _subject(document: Document, plural: str = "") -> str:
     name, other = document["robot"]["name"], reference(document)
-    size = len(_joints_by_title(document["diagnosis"]["findings"]))
-    number, plural = count(size).capitalize(), "s" * (size > 1)
     if other:
-        return f"{number} difference{plural} between {name} and {other}"
-    return f"{number} cause{plural} of simulation error found for {name}"
+        return f"difference{plural} between {name} and {other}"
+    return f"cause{plural} of simulation error found for {name}"
 
 
 def _titles(findings: Sequence[Document]) -> str:

@@ -19,6 +19,7 @@ from veritorque.core.conflicts.setup import Setup
 from veritorque.core.conflicts.trial import Trials
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.terms.kinematic_error import with_entry
+from veritorque.core.errors import SolverError
 from veritorque.core.identification.doubts import has_impossible_joint
 from veritorque.core.log.columns.assignment import Assignment, assigned
 from veritorque.core.log.model import whole_rows
@@ -28,6 +29,7 @@ from veritorque.core.robot.writing import to_description
 from veritorque.core.setup_check import check_setup
 from veritorque.core.signals.recipe import FilterOptions
 from veritorque.core.signals.several import condition_all
+from veritorque.core.signals.state import MotionState
 from veritorque.core.study import IdentifyRequest, diagnose, identify, identify_in_full
 from veritorque.core.validation.holdout import HoldOut
 
@@ -99,22 +101,23 @@ def test_degrees_that_no_joint_could_turn_are_named_though_they_alone_make_the_f
     assert named[1:] in ([("gear_ratio", 1)], [("gear_ratio", 2)])
 
 
+def scara_swing(rate_hz):
+    """Give a robot whose third joint slides, 20 s of motion (m and rad), and its torque with 1 % noise."""
+    row = {"type": "revolute", "alpha": 0.0, "d": 0.0, "r": 0.0, "theta_offset": 0.0}
+    joints = [row, {**row, "d": 0.35}, {**row, "type": "prismatic", "alpha": np.pi, "d": 0.3}, row]
+    robot = robot_from_description({"name": "scara", "joints": joints})
+    model, state = standard_model(robot), swing(4, seed=9, rate_hz=rate_hz)
+    stroke = np.array([1.0, 1.0, 0.1, 1.0])
+    state = MotionState(state.position * stroke, state.velocity * stroke, state.acceleration * stroke)
+    torque = model.torque(true_parameters(model, seed=7), state)
+    noise = np.random.default_rng(4).normal(size=torque.shape)
+    return robot, state, torque + 0.01 * np.std(torque, axis=0) * noise
+
+
 @pytest.mark.parametrize("reversed_", [False, True])
 def test_a_slide_in_millimetres_is_named_and_not_its_force_in_another_unit(reversed_):
     """Its own equation is the same with a force a thousand times larger; the size of the stroke is not."""
-    row = {"type": "revolute", "alpha": 0.0, "d": 0.0, "r": 0.0, "theta_offset": 0.0}
-    scara = [row, {**row, "d": 0.35}, {**row, "type": "prismatic", "alpha": np.pi, "d": 0.3}, row]
-    robot = robot_from_description({"name": "scara", "joints": scara})
-    model, state = standard_model(robot), swing(4, seed=9)
-    state = replace(
-        state,
-        **{
-            name: getattr(state, name) * [1.0, 1.0, 0.1, 1.0]
-            for name in ("position", "velocity", "acceleration")
-        },
-    )
-    torque = model.torque(true_parameters(model, seed=7), state)
-    torque += 0.01 * np.std(torque, axis=0) * np.random.default_rng(4).normal(size=torque.shape)
+    robot, state, torque = scara_swing(rate_hz=100.0)
     torque[:, 1] *= -1.0 if reversed_ else 1.0
     time = np.arange(len(torque)) / 100.0
     log = log_from_arrays("log", time, state.position * [1.0, 1.0, 1e3, 1.0], torque)
@@ -127,6 +130,24 @@ def test_a_slide_in_millimetres_is_named_and_not_its_force_in_another_unit(rever
         "unit": ["rad", "rad", "mm", "rad"],
     }
     assert mapping["torque"]["unit"] == ["N m", "N m", "N", "N m"]
+
+
+@pytest.mark.parametrize("conflicts", ["apply", "report"])
+def test_a_fit_that_fails_because_of_a_conflict_names_it_and_is_done_again(conflicts):
+    """A slide in mm and torques that are lost for 8 ms: the solver does not reach its accuracy."""
+    robot, state, torque = scara_swing(rate_hz=500.0)
+    torque[7000:7004] = 1e-3 * np.random.default_rng(5).normal(size=(4, 4))
+    time = np.arange(len(torque)) / 500.0
+    log = log_from_arrays("log", time, state.position * [1.0, 1.0, 1e3, 1.0], torque)
+    request = IdentifyRequest(robot, (log,), PLAIN | {"conflicts": conflicts})
+    if conflicts == "apply":
+        (named,) = identify(request)["conflicts"]
+        assert (named["conflict"], named["joints"], named["applied"]) == ("unit", [3], True)
+        return
+    with pytest.raises(SolverError) as failed:
+        identify(request)
+    assert failed.value.evidence["conflicts"] == ["the position of joint 3 is in mm"]
+    assert "in mm" in failed.value.remedy
 
 
 @pytest.mark.parametrize("factor", [180.0 / np.pi, np.pi / 180.0])

@@ -86,3 +86,44 @@ def test_rows_that_a_recorder_held_are_no_lost_packet(tmp_path):
     log = read(tmp_path, TIME, position, torque)
     assert log.samples == 3000
     assert {defect.kind for defect in log.defects} == {"repeated_rows"}
+
+
+NOISE = 0.02 * np.random.default_rng(3).normal(size=TORQUE.shape)
+
+
+@pytest.mark.parametrize("value", [0.0, 20.0])
+@pytest.mark.parametrize("rows", [3, 20])
+def test_a_drive_that_does_not_answer_for_a_moment_is_left_out(tmp_path, rows, value):
+    """Whatever the channel holds meanwhile; the other channels go on."""
+    torque, far = TORQUE + NOISE, np.abs(TORQUE[:, 0] - value) > 1.0
+    lost = [first for first in range(400, 2900, 250) if far[first - 1 : first + rows + 1].all()]
+    for first in lost:
+        torque[first : first + rows, 0] = value
+    log = read(tmp_path, TIME, POSITION, torque)
+    counts = {defect.kind: defect.count for defect in log.defects}
+    assert len(lost) > 5
+    assert counts["lost_values"] == len(lost) * rows == 3000 - log.samples
+
+
+def test_a_position_that_is_lost_for_a_moment_is_left_out_and_does_not_refuse_the_log(tmp_path):
+    position = POSITION.copy()
+    position[900:904, 1] = 0.0
+    log = read(tmp_path, TIME, position, TORQUE + NOISE)
+    assert {defect.kind: defect.count for defect in log.defects}["lost_values"] == 4
+
+
+@pytest.mark.parametrize("held", [2, 4, 10])
+def test_a_torque_that_is_sampled_more_slowly_than_the_positions_loses_no_row(tmp_path, held):
+    torque = np.repeat((TORQUE + NOISE)[::held], held, axis=0)[:3000] + 3.0 * np.sign(TORQUE)
+    log = read(tmp_path, TIME, POSITION, torque)
+    assert log.samples == 3000
+    assert "lost_values" not in {defect.kind for defect in log.defects}
+
+
+def test_torque_pulses_of_a_simulation_without_noise_lose_no_row(tmp_path):
+    """A pulse test and a binary excitation hold one value each time, and leap."""
+    pulses, binary = np.zeros(3000), np.sign(np.sin(0.11 * np.arange(3000) ** 1.05))
+    pulses[1000:1010] = pulses[2000:2012] = 5.0
+    log = read(tmp_path, TIME, POSITION, np.column_stack([pulses, binary]))
+    assert log.samples == 3000
+    assert "lost_values" not in {defect.kind for defect in log.defects}

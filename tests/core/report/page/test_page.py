@@ -127,6 +127,20 @@ def test_a_name_that_is_not_sure_never_stands_alone_in_the_headline():
     assert "Not distinguishable" not in sure
 
 
+def test_a_cause_that_is_no_more_likely_than_not_is_only_possible_in_the_headline():
+    likely, even = finding(ambiguous_with=[]), finding(ambiguous_with=[], confidence=0.5, joints=[2])
+    alone = Page(compose_page(diagnosed(findings=[even]))).text
+    assert (
+        "No cause of simulation error found for bench arm with more than 50 % confidence; possible: "
+        "load-dependent friction (joint 2)."
+    ) in alone
+    both = Page(compose_page(diagnosed(findings=[likely, even]))).text
+    assert (
+        "One cause of simulation error found for bench arm: load-dependent friction (joint 1); possible: "
+        "load-dependent friction (joint 2)."
+    ) in both
+
+
 def test_several_findings_are_listed_with_size_and_confidence_before_each_is_told():
     alone = finding(ambiguous_with=[])
     found = [alone, alone | {"statement": "Joint 2's gear yields", "confidence": 0.7, "joints": [2]}]
