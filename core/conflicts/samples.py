@@ -1,6 +1,6 @@
 """Condense conditioned motions to some hundred instants that a set-up can be tried on in milliseconds."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,6 +11,8 @@ from ..signals.condition import Motion
 from ..signals.parallel import Tile
 from ..signals.state import MotionState
 from .thresholds import TRIAL
+
+SERIES = ("position", "velocity", "acceleration", "torque", "direction", "usable", "judged")
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,8 +48,7 @@ class Samples:
 
     def at(self, wanted: SampleMask) -> "Samples":
         """Keep some of the instants."""
-        series = "position", "velocity", "acceleration", "torque", "direction", "usable", "judged"
-        return replace(self, **{name: getattr(self, name)[wanted] for name in series})
+        return replace(self, **{name: getattr(self, name)[wanted] for name in SERIES})
 
     @property
     def state(self) -> MotionState:
@@ -55,41 +56,38 @@ class Samples:
         return MotionState(self.position, self.velocity, self.acceleration, np.zeros(len(self.position)))
 
 
-def _tiles(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Iterator[tuple[Tile, bool]]:
-    """Give the tiles that are not held out, and whether each judges."""
-    for number, motion in enumerate(motions):
-        fitted = {block for block in range(motion.blocks) if (number, block) not in held_out}
-        for tile in motion.tiles(fitted):
-            yield tile, _is_judged(tile.block, number, held_out)
-
-
 def sampled(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Samples:
     """Take every n-th decimated sample of the blocks that are not held out."""
     stride = max(1, -(-sum(motion.kept for motion in motions) // TRIAL.rows))
-    tiles = list(_tiles(motions, held_out))
-
-    def gathered(series: Callable[[Tile], InstantSeries]) -> InstantSeries:
-        return np.concatenate([series(tile)[::stride] for tile, _ in tiles])
-
-    judged = np.concatenate([np.full(-(-len(tile.time) // stride), judges) for tile, judges in tiles])
+    parts = [
+        part for number, motion in enumerate(motions) for part in _taken(motion, number, held_out, stride)
+    ]
+    series = {name: np.concatenate([part[name] for part in parts]) for name in SERIES}
     cycles = sum(motion.log.duration * motion.recipe.motion_band_hz for motion in motions)
-    return Samples(
-        position=gathered(lambda tile: _filtered(tile, tile.state.position)),
-        velocity=gathered(lambda tile: _filtered(tile, tile.state.velocity)),
-        acceleration=gathered(lambda tile: _filtered(tile, tile.state.acceleration)),
-        torque=gathered(lambda tile: _filtered(tile, tile.torque)),
-        direction=gathered(lambda tile: _filtered(tile, np.sign(tile.state.velocity))),
-        usable=np.concatenate([tile.usable[::stride] for tile, _ in tiles]),
-        judged=judged,
-        independent=max(1.0, float(judged.mean() * 2.0 * cycles)),
-    )
+    return Samples(**series, independent=max(1.0, float(series["judged"].mean() * 2.0 * cycles)))
+
+
+def _taken(
+    motion: Motion, number: int, held_out: frozenset[BlockKey], stride: int
+) -> Iterator[dict[str, np.ndarray]]:
+    """Give every n-th decimated sample of each block that is fitted; every third of these blocks judges."""
+    fitted = [block for block in range(motion.blocks) if (number, block) not in held_out]
+    for tile in motion.tiles(fitted):
+        taken = np.concatenate([np.arange(kept.start, kept.stop, stride) for _, kept in tile.parts()])
+        series = {
+            "position": tile.state.position,
+            "velocity": tile.state.velocity,
+            "acceleration": tile.state.acceleration,
+            "torque": tile.torque,
+            "direction": np.sign(tile.state.velocity),
+        }
+        judged = np.searchsorted(fitted, tile.block[taken]) % TRIAL.judged_every == 1
+        yield {
+            **{name: _filtered(tile, values)[taken] for name, values in series.items()},
+            "usable": tile.usable[taken],
+            "judged": judged,
+        }
 
 
 def _filtered(tile: Tile, series: JointSeries) -> InstantSeries:
     return tile.filtered(np.ascontiguousarray(series.T)).T
-
-
-def _is_judged(block: int, number: int, held_out: frozenset[BlockKey]) -> bool:
-    """Tell whether a block judges: every third of those of a log that are fitted."""
-    before = sum((number, other) not in held_out for other in range(block))
-    return before % TRIAL.judged_every == 1

@@ -21,7 +21,7 @@ from .columns import ColumnPlan
 from .factor import Factor, FilteredRows, Weigh
 from .memory import LaggedProducts, TurningProducts
 
-_POSITIONS_PER_TILE = 32
+_POSITIONS_PER_BLOCK = 32
 _UNMARKED = np.zeros(0, dtype=bool)
 Products = TypeVar("Products")
 Progress = Callable[[float], None]
@@ -191,7 +191,7 @@ class _Gathering:
     ) -> None:
         self.plan = plan
         self.weigh = weigh
-        self.held_out = held_out
+        self.held_out = [number for source, number in held_out if source == log]
         self.log = log
         self.memory = [LaggedProducts.empty(len(columns) + 1) for columns in plan.columns_of]
         self.turning = [TurningProducts.empty(len(columns) + 1) for columns in plan.columns_of]
@@ -200,22 +200,29 @@ class _Gathering:
         self.positions: list[JointSeries] = []
 
     def take(self, tile: Tile) -> None:
-        block = self._blocks.setdefault(tile.block, OpenBlock(self.plan, float(tile.time[0])))
-        block.end = float(tile.time[-1])
-        step = tile.parallel.decimation * (1 + len(tile.time) // _POSITIONS_PER_TILE)
-        self.positions.append(tile.state.position[tile.first :: step][:_POSITIONS_PER_TILE].copy())
         if not tile.follows:
             self._tails = [tail.none for tail in self._tails]
+        parts = list(tile.parts())
+        for number, kept in parts:
+            self._sample(tile, kept)
+            block = self._blocks.setdefault(number, OpenBlock(self.plan, float(tile.time[kept.start])))
+            block.end = float(tile.time[kept.stop - 1])
         pairs = list(equations(self.plan, tile))
         weights = None if self.weigh is None else self.weigh(pairs)
+        fitted = ~np.isin(tile.block, self.held_out)
         for joint, (rows, usable) in enumerate(pairs):
             marked = rows * (usable if weights is None else usable * weights[joint])[:, None]
-            turning = tile.turning[:, joint]
-            block.take(joint, (marked[usable & ~turning], marked[turning]), rows[usable, -1])
-            if (self.log, tile.block) in self.held_out:
-                self._tails[joint] = self._tails[joint].none
-            else:
-                self._remember(joint, marked, turning, int(usable.sum()))
+            moving, turning = usable & ~tile.turning[:, joint], tile.turning[:, joint]
+            for number, kept in parts:
+                split = marked[kept][moving[kept]], marked[kept][turning[kept]]
+                self._blocks[number].take(joint, split, rows[kept, -1][usable[kept]])
+            self._remember(joint, marked * fitted[:, None], turning & fitted, int((usable & fitted).sum()))
+
+    def _sample(self, tile: Tile, kept: slice) -> None:
+        """Keep some of a block's positions."""
+        step = 1 + (kept.stop - kept.start) // _POSITIONS_PER_BLOCK
+        at = tile.first + tile.parallel.decimation * np.arange(kept.start, kept.stop, step)
+        self.positions.append(tile.state.position[at[:_POSITIONS_PER_BLOCK]])
 
     def _remember(self, joint: int, rows: np.ndarray, turning: np.ndarray, used: int) -> None:
         tail = self._tails[joint]

@@ -4,14 +4,13 @@ The log's gap-free parts are conditioned one by one (see `segment`); the paralle
 equations are written. Nothing is computed before the tiles are asked for, so a log's length costs no memory.
 """
 
-from collections.abc import Container, Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import pairwise
 
 import numpy as np
 
-from ..arrays import JointVector, Matrix
+from ..arrays import JointVector, Matrix, SampleMask
 from ..errors import LogError
 from ..log.model import JointLog
 from ..robot.joint_units import prismatic_joints
@@ -20,7 +19,8 @@ from .parallel import Tile
 from .recipe import FilterOptions, Recipe, choose_recipe
 from .segment import Segment, gap_free
 
-TILE_KEPT = 512
+TILE_KEPT = 1024
+"""Decimated samples of a tile: more of them share what its filters see beside it, and cost more memory."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,22 +40,24 @@ class Motion:
         """Count the decimated samples of all segments."""
         return sum(segment.kept for segment in self.segments)
 
-    def tiles(self, blocks: Container[int] | None = None) -> Iterator[Tile]:
+    def tiles(self, blocks: Collection[int] | None = None) -> Iterator[Tile]:
         """Go once through some blocks of the motion (all by default); no others are conditioned."""
-        for segment, begin, end, block in self._pieces():
-            if blocks is None or block in blocks:
-                for start in range(begin, end, TILE_KEPT):
-                    yield segment.tile(self.effort_scale, start, min(start + TILE_KEPT, end), block)
-
-    def _pieces(self) -> Iterator[tuple[Segment, int, int, int]]:
-        """Cut the segments by blocks: segment, first decimated sample and the one behind the last, block."""
         borders = [self.kept * number // self.blocks for number in range(self.blocks + 1)]
         done = 0
         for segment in self.segments:
-            inside = {border - done for border in borders if 0 < border - done < segment.kept}
-            for begin, end in pairwise(sorted({0, segment.kept} | inside)):
-                yield segment, begin, end, int(np.searchsorted(borders, done + begin, side="right")) - 1
+            owners = np.searchsorted(borders, done + np.arange(segment.kept), side="right") - 1
+            wanted = np.ones(segment.kept, dtype=bool) if blocks is None else np.isin(owners, list(blocks))
+            for begin, end in _runs(wanted):
+                for start in range(begin, end, TILE_KEPT):
+                    kept = slice(start, min(start + TILE_KEPT, end))
+                    yield segment.tile(self.effort_scale, kept, owners[kept], follows=start > begin)
             done += segment.kept
+
+
+def _runs(wanted: SampleMask) -> Iterator[tuple[int, int]]:
+    """Give where the runs of marked samples begin and end."""
+    edges = np.flatnonzero(np.diff(wanted, prepend=False, append=False))
+    return zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True)
 
 
 def condition(

@@ -5,13 +5,14 @@ no edge effect and no choice of cut-off can bias it. Only the decimated samples 
 stretch of motion together with its filter. Source: Gautier 1997; Khalil & Dombre (2002), ch. 12.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
-from ..arrays import InstantMask, Instants, JointSeries, KeptSeries, Matrix, Samples, Series
+from ..arrays import Indices, InstantMask, Instants, JointSeries, KeptSeries, Matrix, Samples, Series
 from .state import MotionState
 from .zero_phase import Modes
 
@@ -163,10 +164,37 @@ class Tile:
     """Which decimated samples may be used for which joint."""
     turning: InstantMask
     """Which of these lie so near a reversal that the direction of the joint's friction is in doubt."""
-    block: int
-    """Number of the log's block that the tile belongs to."""
+    block: Indices
+    """Number of the log's block that each decimated sample belongs to."""
     follows: bool
     """Whether its first decimated sample comes right after the last of the tile before, without a gap."""
+
+    def parts(self) -> Iterator[tuple[int, slice]]:
+        """Give the blocks that it has a part of, and the decimated samples of each."""
+        edges = np.flatnonzero(np.diff(self.block)) + 1
+        for begin, end in pairwise((0, *edges.tolist(), len(self.block))):
+            yield int(self.block[begin]), slice(begin, end)
+
+    def by_block(self) -> Iterator[tuple[int, "Tile"]]:
+        """Give the blocks that it has a part of, and that part with what the filter sees beside it."""
+        for number, kept in self.parts():
+            at = self.first + kept.start * self.parallel.decimation
+            last = self.first + (kept.stop - 1) * self.parallel.decimation
+            seen = slice(max(0, at - self.parallel.reach), last + self.parallel.reach + 1)
+            yield (
+                number,
+                replace(
+                    self,
+                    state=self.state.at(seen),
+                    torque=self.torque[seen],
+                    first=at - seen.start,
+                    time=self.time[kept],
+                    usable=self.usable[kept],
+                    turning=self.turning[kept],
+                    block=self.block[kept],
+                    follows=self.follows or kept.start > 0,
+                ),
+            )
 
     def filtered(self, series: Series) -> KeptSeries:
         """Apply the parallel filter to rows of samples and keep the tile's instants."""

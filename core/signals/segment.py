@@ -12,11 +12,22 @@ import numpy as np
 from scipy.ndimage import maximum_filter1d
 from scipy.signal import oaconvolve
 
-from ..arrays import Instants, InstantSeries, JointMask, JointSeries, JointVector, Matrix, SampleMask, Samples
+from ..arrays import (
+    Indices,
+    Instants,
+    InstantSeries,
+    JointMask,
+    JointSeries,
+    JointVector,
+    Matrix,
+    SampleMask,
+    Samples,
+)
 from ..log.defects.clock import GAP_STEPS, longest_bridge
 from ..log.model import JointLog, LogRows
 from .clock import ROWS, is_even
 from .derivative import REACH, absurd_reach, differentiate
+from .marks import at_limit, changes_sign, long_runs
 from .parallel import ParallelFilter, Tile
 from .recipe import Recipe, is_usable
 from .resample import (
@@ -36,8 +47,6 @@ END_SHARE = 1e-3
 _NEIGHBOURS = 40
 """Samples on either side of a stretch that its spline is laid through; further ones change nothing."""
 EFFORT_SPIKES = (("outliers", "torque"), ("outliers", "current"))
-ROUNDING = 1e-9
-"""Share of a limit by which a value at it may be off after conversion of units."""
 UNUSABLE_SHARE = 0.05
 """A decimated sample is left out when more of the parallel filter's weight falls on unusable samples."""
 
@@ -90,10 +99,12 @@ class Segment:
         """Count the samples on either side up to which the filter on q blurs when a joint turns round."""
         return int(np.ceil(self.rate_hz / self.recipe.position_cutoff_hz))
 
-    def tile(self, effort_scale: JointVector, first_kept: int, last_kept: int, block: int) -> Tile:
-        """Condition the stretch that the decimated samples from first up to, not including, last need."""
+    def tile(
+        self, effort_scale: JointVector, kept: slice, block: Indices | None = None, *, follows: bool = False
+    ) -> Tile:
+        """Condition the stretch that some decimated samples need; all are of one block by default."""
         step = self.recipe.decimation
-        first, (begin, end) = first_kept * step, self._seen(first_kept, last_kept)
+        first, (begin, end) = kept.start * step, self._seen(kept.start, kept.stop)
         # A standstill is known by its length, so the search for it reaches that much further than the filter.
         halo = max(self.still_samples, self.direction_samples + 1)
         early, late = max(0, begin - halo), min(self.samples, end + halo)
@@ -106,7 +117,7 @@ class Segment:
         marks = (self._unusable(wide.velocity, early) | self._at_a_limit(torque) | unknown[:, None])[inner]
         turns = self._undirected(wide.velocity)[inner]
         unusable, turning = (
-            self.parallel.influence(mask.T.astype(float), first - begin, last_kept - first_kept).T
+            self.parallel.influence(mask.T.astype(float), first - begin, kept.stop - kept.start).T
             > UNUSABLE_SHARE
             for mask in (marks, turns)
         )
@@ -115,11 +126,11 @@ class Segment:
             torque=torque[inner] * effort_scale,
             parallel=self.parallel,
             first=first - begin,
-            time=self.begin_time + np.arange(first_kept, last_kept) * (step / self.rate_hz),
+            time=self.begin_time + np.arange(kept.start, kept.stop) * (step / self.rate_hz),
             usable=~unusable,
             turning=turning & ~unusable,
-            block=block,
-            follows=first_kept > 0,
+            block=np.zeros(kept.stop - kept.start, dtype=int) if block is None else block,
+            follows=follows,
         )
 
     def effort(self, first_kept: int, last_kept: int) -> tuple[JointSeries, int]:
@@ -195,7 +206,7 @@ class Segment:
         index = np.arange(begin, begin + len(velocity))
         ends: SampleMask = (index < self.reach) | (index >= self.samples - self.reach)
         slow = np.abs(velocity) <= self.recipe.still_speed
-        return np.asarray(ends[:, None] | _long_runs(slow, self.still_samples) | self._unmeasured)
+        return np.asarray(ends[:, None] | long_runs(slow, self.still_samples) | self._unmeasured)
 
     def _at_a_limit(self, effort: JointSeries) -> JointMask:
         """Mark the efforts at the limit of a channel that saturates: the true ones may lie beyond."""
@@ -212,9 +223,9 @@ class Segment:
         after.
         """
         still = self.recipe.still_speed
-        marks = _changes_sign(velocity, still)
+        marks = changes_sign(velocity, still)
         if len(self.motors):
-            own = _changes_sign(velocity @ self.motors.T, np.sqrt(self.motors**2 @ still**2))
+            own = changes_sign(velocity @ self.motors.T, np.sqrt(self.motors**2 @ still**2))
             marks |= (own.astype(float) @ (self.motors != 0.0)) > 0.0
         return np.asarray(maximum_filter1d(marks, 2 * self.direction_samples + 1, axis=0, mode="constant"))
 
@@ -257,34 +268,6 @@ def gap_free(
     return Segment(
         log, recipe, start, float(stamps[0]), float(rate), len(stamps), None if even else stamps, shared
     )
-
-
-def at_limit(effort: Samples, level: float) -> SampleMask:
-    """Mark the samples at a limit with its sign, in the unit of the effort."""
-    return np.asarray(effort / level > 1.0 - ROUNDING)
-
-
-def _changes_sign(velocity: JointSeries, still: JointVector) -> JointMask:
-    """Mark the samples that are still, and both between which the sign changes."""
-    marks = np.abs(velocity) <= still
-    turned = np.sign(velocity[1:]) != np.sign(velocity[:-1])
-    marks[1:] |= turned
-    marks[:-1] |= turned
-    return np.asarray(marks)
-
-
-def _long_runs(mask: JointMask, run: int) -> JointMask:
-    """Keep the stretches of a mask that last at least `run` samples: those that some full window covers."""
-    if len(mask) < run:
-        return np.asarray(mask & mask.all(axis=0))
-    full = _window_sums(mask, run) == run
-    return np.asarray(_window_sums(np.pad(full, ((run - 1, run - 1), (0, 0))), run) > 0)
-
-
-def _window_sums(mask: JointMask, run: int) -> np.ndarray:
-    """Count the marks in every window of `run` samples."""
-    sums = np.cumsum(np.pad(mask, ((1, 0), (0, 0))), axis=0)
-    return np.asarray(sums[run:] - sums[:-run])
 
 
 def _extend(position: JointSeries, before: int, after: int) -> InstantSeries:

@@ -59,20 +59,22 @@ def stretches(motions: tuple[Motion, ...], chosen: frozenset[BlockKey] | None = 
     """Go through the motions block by block (all blocks by default)."""
     for log, motion in enumerate(motions):
         blocks = None if chosen is None else {block for number, block in chosen if number == log}
-        for run in _runs(without_standstill_mask(motion).tiles(blocks)):
-            yield from _usable_part((log, run[0].block), run)
+        for block, run in _runs(without_standstill_mask(motion).tiles(blocks)):
+            yield from _usable_part((log, block), run)
 
 
-def _runs(tiles: Iterable[Tile]) -> Iterator[list[Tile]]:
-    """Gather tiles that follow each other within a block."""
+def _runs(tiles: Iterable[Tile]) -> Iterator[tuple[int, list[Tile]]]:
+    """Gather the parts of tiles that follow each other within a block."""
     run: list[Tile] = []
-    for tile in tiles:
-        if run and not (tile.follows and tile.block == run[-1].block):
-            yield run
+    within = -1
+    for block, part in (pair for tile in tiles for pair in tile.by_block()):
+        if run and not (part.follows and block == within):
+            yield within, run
             run = []
-        run.append(tile)
+        run.append(part)
+        within = block
     if run:
-        yield run
+        yield within, run
 
 
 def measured_torque(stretch: Stretch) -> JointSeries:

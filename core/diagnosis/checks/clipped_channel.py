@@ -16,7 +16,7 @@ from ...arrays import SampleMask
 from ...dynamics.prediction import Prediction
 from ...log.model import JointLog
 from ...robot.joint_units import joint_unit
-from ...signals.segment import at_limit
+from ...signals.marks import at_limit
 from ..causes.protocol import Quantity, number_text
 from ..causes.sample_check import SampleFinding
 from ..causes.torque_saturation import TorqueSaturation

@@ -72,7 +72,7 @@ def _segment(
     number: int, motion: Motion, robot: RobotModel, segment: Segment, kept: tuple[int, int], done: int
 ) -> DatasetSegment:
     recipe, still = motion.recipe, motion.recipe.still_speed
-    tile = segment.tile(motion.effort_scale, kept[0], kept[1], 0)
+    tile = segment.tile(motion.effort_scale, slice(*kept))
     thin = thinning(motion.log.rate_hz, recipe.cutoff_hz)
     begin = tile.first % thin
     state = tile.state.at(slice(begin, None, thin))

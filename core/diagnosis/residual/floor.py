@@ -81,7 +81,7 @@ def _from_high_band(dataset: Dataset) -> tuple[JointVector, JointVector]:
     for motion in dataset.motions:
         for segment in motion.segments:
             last = min(segment.kept, int(FLOOR.segment_seconds * segment.rate_hz / motion.recipe.decimation))
-            torque = segment.tile(motion.effort_scale, 0, last, 0).torque
+            torque = segment.tile(motion.effort_scale, slice(0, last)).torque
             density = _bands(torque, segment.rate_hz, motion.recipe.cutoff_hz)
             if density is not None:
                 low, high = low + len(torque) * density[0], high + len(torque) * density[1]

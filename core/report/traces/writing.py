@@ -58,10 +58,8 @@ def write_traces(path: Path | None, found: Identification, diagnosed: Extension 
         pq.ParquetWriter(file, schema, compression="zstd", use_dictionary=[LOG, HELD_OUT]) as writer,
     ):
         for log, motion in enumerate(found.motions):
-            parts = (
-                _rows(tile, models, log=log, held_out=(log, tile.block) in found.held_out)
-                for tile in motion.tiles()
-            )
+            blocks = [number for source, number in found.held_out if source == log]
+            parts = (_rows(tile, models, log=log, held_out=blocks) for tile in motion.tiles())
             while group := list(islice(parts, TILES_TOGETHER)):
                 writer.write_table(_table(group, schema))
 
@@ -80,7 +78,7 @@ def _table(parts: list[Rows], schema: pa.Schema) -> pa.Table:
     return pa.table(rows, schema=schema)
 
 
-def _rows(tile: Tile, models: tuple[_Model, ...], *, log: int, held_out: bool) -> Rows:
+def _rows(tile: Tile, models: tuple[_Model, ...], *, log: int, held_out: list[int]) -> Rows:
     kept = len(tile.time)
     at = slice(tile.first, None, tile.parallel.decimation)
     torque, residual = compare(models[0].plan, tile, models[0].parameters)
@@ -98,7 +96,7 @@ def _rows(tile: Tile, models: tuple[_Model, ...], *, log: int, held_out: bool) -
     return {
         LOG: np.full(kept, log + 1, dtype=np.int32),
         TIME: tile.time,
-        HELD_OUT: np.full(kept, held_out),
+        HELD_OUT: np.isin(tile.block, held_out),
         **{
             column(signal, joint): values.astype(np.float32)
             for signal, table in series.items()

@@ -127,7 +127,7 @@ def test_blocks_hold_all_usable_rows_of_their_stretch(observation, motion, plan)
     assert [block.number for block in observation.blocks] == list(range(BLOCKS))
     used = np.zeros((BLOCKS, 7), dtype=int)
     for tile in motion.tiles():
-        used[tile.block] += tile.usable.sum(axis=0)
+        np.add.at(used, tile.block, tile.usable)
     assert [[factor.rows for factor in block.factors] for block in observation.blocks] == used.tolist()
     assert observation.kept == motion.kept
     ends = [block.end for block in observation.blocks]
