@@ -60,7 +60,7 @@ def install(app: FastAPI) -> None:
 
 async def _on_http(request: Request, error: Exception) -> Response:
     if isinstance(error, HTTPException) and error.status_code == KINDS["not-found"][0] and _reads(request):
-        return HTMLResponse(shell("lost"), error.status_code, headers=STRICT | {"Vary": "Accept"})
+        return HTMLResponse(shell("not_found"), error.status_code, headers=STRICT | {"Vary": "Accept"})
     if isinstance(error, Problem):
         return problem_response(error)
     status = error.status_code if isinstance(error, HTTPException) else 500

@@ -26,8 +26,8 @@ def main():
         with ExitStack() as stack:
             url = new_database(stack.enter_context(cluster())) if database == "postgresql" else None
             wanted = {"jobs": chosen.jobs, "kills": chosen.kills, "freezes": chosen.freezes}
-            figures, storm = chaos(**wanted, seed=chosen.seed, url=url, tell=_tell)
-        _tell(f"{database}: killed {storm.kills}, froze {storm.freezes}; {figures}")
+            figures, failures = chaos(**wanted, seed=chosen.seed, url=url, tell=_tell)
+        _tell(f"{database}: killed {failures.kills}, froze {failures.freezes}; {figures}")
         clean &= figures.clean
     return 0 if clean else 1
 

@@ -1,4 +1,4 @@
-"""Let a storm rage over a service that works, and judge what is left."""
+"""Kill and freeze the processes of a service that works, and judge what is left."""
 
 import signal
 import tempfile
@@ -7,9 +7,9 @@ import time
 from pathlib import Path
 
 from tests.chaos.customer import Customer
+from tests.chaos.failures import Failures
 from tests.chaos.judge import compare
 from tests.chaos.processes import Fleet
-from tests.chaos.storm import Storm
 from veritorque.app.store.store import Store
 
 MEMORY = Path("/dev/shm")  # noqa: S108 - what is killed is processes: what they wrote need not reach a disk
@@ -19,27 +19,27 @@ ENDED_WELL = (0, -signal.SIGTERM)  # uvicorn ends in order, then by the signal t
 
 
 def chaos(*, jobs, kills, freezes, seed, url=None, workers=4, tell=lambda text: None):
-    """Give the figures, and the storm that they survived."""
+    """Give the figures, and the failures that they survived."""
     with tempfile.TemporaryDirectory(prefix="vt-chaos-", dir=MEMORY if MEMORY.is_dir() else None) as folder:
         fleet = Fleet(_made(Path(folder) / "data"), url, workers)
         customer = Customer(fleet.address)
-        storm = Storm(
+        failures = Failures(
             fleet, lambda: len(customer.finished), jobs=jobs, kills=kills, freezes=freezes, seed=seed
         )
         try:
             customer.prepare()
             asking = threading.Thread(target=customer.keep_busy, daemon=True)
-            raging = threading.Thread(target=storm.rage, daemon=True)
+            causing = threading.Thread(target=failures.cause, daemon=True)
             asking.start()
-            raging.start()
-            _wait(fleet, customer, storm, asking, jobs, tell)
-            return _judged(fleet, customer, url, tell), storm
+            causing.start()
+            _wait(fleet, customer, failures, asking, jobs, tell)
+            return _judged(fleet, customer, url, tell), failures
         except BaseException:
             tell((Path(folder) / "journal").read_text()[-TOLD:])
             raise
         finally:
-            storm.calm.set()
-            storm.over.wait(60.0)
+            failures.stop.set()
+            failures.ended.wait(60.0)
             fleet.close()
 
 
@@ -59,10 +59,10 @@ def _judged(fleet, customer, url, tell):
     return figures
 
 
-def _wait(fleet, customer, storm, asking, jobs, tell):
+def _wait(fleet, customer, failures, asking, jobs, tell):
     begun = told = time.monotonic()
     while asking.is_alive():
-        if storm.over.is_set():
+        if failures.ended.is_set():
             fleet.revive()
             if len(customer.jobs) >= jobs:
                 customer.enough.set()
@@ -70,7 +70,7 @@ def _wait(fleet, customer, storm, asking, jobs, tell):
             told = time.monotonic()
             tell(
                 f"{told - begun:5.0f} s: {len(customer.finished)} of {len(customer.jobs)} jobs finished, "
-                f"killed {storm.kills}, froze {storm.freezes}"
+                f"killed {failures.kills}, froze {failures.freezes}"
             )
         asking.join(0.2)
     if not customer.enough.is_set() or customer.jobs.keys() != customer.finished.keys():

@@ -9,7 +9,7 @@ from tests.core.diagnosis.scenes import measured_arm, skew_arm
 from tests.core.diagnosis.test_diagnose import diagnosed, hidden
 from veritorque.core import study
 from veritorque.core.diagnosis.result import Diagnosis
-from veritorque.core.diagnosis.thresholds.checks import SIZE
+from veritorque.core.diagnosis.thresholds.checks import CONFIDENCE
 from veritorque.core.errors import SolverError
 from veritorque.core.extension import extend
 from veritorque.core.extension.result import Extension
@@ -72,8 +72,9 @@ def test_a_cause_in_doubt_joins_no_model_where_it_gains_nothing(monkeypatch):
     found = studied(monkeypatch, HARMLESS)
     assert found.after is None
     assert not found.diagnosis.findings[0].proven
-    assert found.diagnosis.findings[0].confidence == SIZE.doubtful < diagnosed(hidden).findings[0].confidence
-    assert len(found.diagnosis.findings[0].evidence) == len(diagnosed(hidden).findings[0].evidence)
+    mine, before = found.diagnosis.findings[0], diagnosed(hidden).findings[0]
+    assert mine.confidence == CONFIDENCE.doubtful < before.confidence
+    assert len(mine.evidence) == len(before.evidence)
 
 
 def test_a_cause_in_doubt_with_which_there_is_no_answer_joins_no_model(monkeypatch):

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from tests.measured import measured_log, measured_robot
-from veritorque.core.diagnosis.thresholds.checks import SIZE
+from veritorque.core.diagnosis.thresholds.checks import CONFIDENCE
 from veritorque.core.extension.result import Extension
 from veritorque.core.identification.result import Identification
 from veritorque.core.study import IdentifyRequest, diagnose_in_full
@@ -39,7 +39,7 @@ def percents_of_all_rows(found: Identification) -> np.ndarray:
 def judge_on_held_out_motion(found: Extension) -> None:
     """Hold confident causes to a gain on held-out rows, of their own or identified, and their cure to one."""
     searched = [one for one in found.diagnosis.findings if one.gain is not None]
-    confident = [one for one in searched if one.confidence > SIZE.doubtful]
+    confident = [one for one in searched if one.confidence > CONFIDENCE.doubtful]
     assert all(one.proven or one.gain.interval_95[0] > 0.0 for one in confident)
     before, after = map(percents_of_all_rows, (found.before, found.after))
     assert np.mean(np.log(after / before)) < 0.0

@@ -15,7 +15,7 @@ from ..search.hypothesis import Hypothesis
 from ..search.likelihood_ratio import log_p_of
 from ..search.residuals import residual
 from ..search.state import SearchState
-from ..thresholds.checks import CONFIDENCE, SIZE
+from ..thresholds.checks import CONFIDENCE
 from .alternatives import Comparison
 from .confidence import confidence, predictors
 from .figure import curve
@@ -55,7 +55,7 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
         cure=cause.cure,
         statement=cause.statement(solved),
         quantities=cause.quantities(solved),
-        confidence=min(confidence(evidence), SIZE.doubtful) if doubtful else confidence(evidence),
+        confidence=min(confidence(evidence), CONFIDENCE.doubtful) if doubtful else confidence(evidence),
         predictors=evidence,
         p_value=float(np.exp(log_p)),
         explained_fraction=_fraction(left, dataset.usable & ~dataset.held_out[:, None], joints),

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..result import Diagnosis, Finding
-from ..thresholds.checks import SIZE, VERDICT
+from ..thresholds.checks import CONFIDENCE, RESIDUAL, VERDICT
 
 
 def with_reservations(found: Diagnosis, *, open_conflict: bool, doubted: bool) -> Diagnosis:
@@ -37,7 +37,7 @@ def with_reservations(found: Diagnosis, *, open_conflict: bool, doubted: bool) -
 
 def as_doubtful(finding: Finding) -> Finding:
     """Give a finding no more confidence than a doubtful one may have."""
-    return replace(finding, confidence=min(finding.confidence, SIZE.doubtful))
+    return replace(finding, confidence=min(finding.confidence, CONFIDENCE.doubtful))
 
 
 def _joints_not_fitted(found: Diagnosis) -> Iterator[int]:
@@ -46,5 +46,5 @@ def _joints_not_fitted(found: Diagnosis) -> Iterator[int]:
     for joint in structured:
         usable = found.dataset.usable[:, joint - 1]
         left = np.sum(found.residual_after[usable, joint - 1] ** 2)
-        if left > SIZE.half**2 * np.sum(found.dataset.torque[usable, joint - 1] ** 2):
+        if left > RESIDUAL.failed**2 * np.sum(found.dataset.torque[usable, joint - 1] ** 2):
             yield joint

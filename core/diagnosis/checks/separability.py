@@ -115,7 +115,7 @@ def _kinds(fitter: HypothesisFitter) -> list[list[Candidate]]:
 
 
 def _shown(candidate: Candidate, score: Score, fit: Fit, kinds: int) -> Shown:
-    least = max(ENTRY.open, candidate.cause.traits.least_clear)
+    least = max(ENTRY.least_clear, candidate.cause.traits.least_clear)
     visible = score.clear_share >= least and is_determined(candidate.cause, score)
     smallest = _smallest(candidate, score, fit, kinds) if visible else None
     return Shown(candidate.cause, candidate.site, visible, smallest)
@@ -190,7 +190,7 @@ def _basis(gram: SquareMatrix, squares: np.ndarray) -> np.ndarray:
     """Give orthonormal directions of some columns; one of nothing where the model spans them."""
     size = np.sqrt(np.maximum(squares, 1e-300))
     values, vectors = np.linalg.eigh(gram / np.outer(size, size))
-    clear = values > COLUMNS.open
+    clear = values > COLUMNS.least_clear
     if not clear.any():
         return np.zeros((len(gram), 1))
     return np.asarray((vectors[:, clear] / size[:, None]) / np.sqrt(values[clear]))

@@ -159,10 +159,10 @@ def _test_scores(grams: np.ndarray, right: Matrix, squares: Matrix) -> list[Scor
     size = np.sqrt(np.maximum(squares, 1e-300))
     left = grams / (size[:, :, None] * size[:, None, :])
     clear = np.clip(np.diagonal(left, axis1=1, axis2=2), 0.0, 1.0).max(axis=1)
-    tested = np.isfinite(left).all(axis=(1, 2)) & (clear >= COLUMNS.open)
+    tested = np.isfinite(left).all(axis=(1, 2)) & (clear >= COLUMNS.least_clear)
     out = [Score(0.0, 1, np.zeros(right.shape[1]), np.eye(right.shape[1]), 0.0)] * len(right)
     values, vectors = np.linalg.eigh(left[tested])
-    inverse = np.divide(1.0, values, out=np.zeros_like(values), where=values > COLUMNS.open)
+    inverse = np.divide(1.0, values, out=np.zeros_like(values), where=values > COLUMNS.least_clear)
     spread = vectors / size[tested][:, :, None]
     projected = np.einsum("nij,ni->nj", spread, right[tested])
     covariance = np.einsum("nij,nj,nkj->nik", spread, inverse, spread)

@@ -50,7 +50,7 @@ def best_entry(
     scans = _admissible_scans(fitter, now, excluded_kinds)
     tried = scans[:most] + [scored for scored in scans[most:] if scored.candidate.cause.traits.transient]
     reach = zip(tried, predicted_likelihood_ratios(fitter, now, tried), strict=True)
-    bounds = ((scored, ENTRY.raised * brings + ENTRY.besides) for scored, brings in reach)
+    bounds = ((scored, ENTRY.bound_factor * brings + ENTRY.bound_excess) for scored, brings in reach)
     ranked = sorted(bounds, key=lambda pair: -pair[1])
     found: Hypothesis | None = None
     left: Ranked = [(scored, most) for scored, most in ranked if most > least]
@@ -106,7 +106,7 @@ def _best_on_holdout(
     """Give the best of some trials that passes the hold-out test and is not masked by a member."""
     # A shared parameter carries an effect to other joints, so the noise of all of them is estimated again.
     whole = [fitter.fit(trial.members, trial) for trial in likely[: SEARCH.fitted_whole]]
-    # A transient cause explains a little of anything, and comes after those that act all the time.
+    # A cause in short spans fits a part of whatever is left, and is tried after those that act all the time.
     ranked = sorted(
         whole, key=lambda trial: (trial.members[-1].cause.traits.transient, -bic_gain(now, trial))
     )

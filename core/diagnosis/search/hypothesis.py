@@ -83,7 +83,7 @@ class ScoredCandidate:
     @property
     def identifiable(self) -> bool:
         """Tell whether the model's parameters cannot stand for it."""
-        return self.possible and self.clear_share >= ENTRY.open
+        return self.possible and self.clear_share >= ENTRY.least_clear
 
     @cached_property
     def log_p(self) -> float:
@@ -110,7 +110,7 @@ class Hypothesis:
         own = self.columns_of(index)
         scale = self.fit.scale[own]
         spread = np.linalg.eigvalsh(self.fit.covariance[own, own] * np.outer(scale, scale))
-        return max(int(np.count_nonzero(spread < 1.0 / COLUMNS.open)), 1)
+        return max(int(np.count_nonzero(spread < 1.0 / COLUMNS.least_clear)), 1)
 
     def covariance(self, index: int) -> SquareMatrix:
         """Give the covariance of a member's linear parameters where its scalars are what they are."""

@@ -74,6 +74,10 @@ class Confidence:
 
     certain: float = 0.99
     """Probability, the highest that is reported. Set by hand."""
+    doubtful: float = 0.5
+    """Probability that no finding exceeds while a conflict or more than half of a joint's torque is left,
+    while an alternative explains more, while no held-out row shows a gain, or where its columns do not
+    represent its size. Set by hand."""
     clear_statistic: float = 25.0
     """Likelihood ratio at which the strength is 0; each further one of that size adds 1."""
     most_strength: float = 2.0
@@ -85,14 +89,10 @@ class Confidence:
 
 
 @dataclass(frozen=True)
-class Size:
-    """Decide whether a size makes sense beside the log. All are set by hand."""
+class Residual:
+    """Decide whether a model fits a joint at all. Set by hand."""
 
-    doubtful: float = 0.5
-    """Probability that no finding exceeds while a conflict or more than half of a joint's torque is left,
-    while an alternative explains more, while no held-out row shows a gain, or where its columns do not
-    represent its size."""
-    half: float = 0.5
+    failed: float = 0.5
     """Share of a joint's RMS torque, left by model and findings, from which on the model does not fit it."""
 
 
@@ -120,5 +120,5 @@ class Motion:
     worse."""
 
 
-SIZE, SEPARATION, AT_REST, MOTION = Size(), Separation(), AtRest(), Motion()
+RESIDUAL, SEPARATION, AT_REST, MOTION = Residual(), Separation(), AtRest(), Motion()
 ALTERNATIVES, VERDICT, UNNAMED, CONFIDENCE = Alternatives(), Verdict(), Unnamed(), Confidence()

@@ -32,7 +32,7 @@ class Noise:
 class Columns:
     """Decide which columns count as evidence."""
 
-    open: float = 1e-6
+    least_clear: float = 1e-6
     """Share of a column's square that the others leave below which it is no evidence. Set by hand."""
 
 

@@ -35,12 +35,12 @@ class Entry:
     """Share of a joint's prewhitened square that a cause has to explain."""
     row_limit: float = 16.0
     """Squared standard deviations that one row may count for, so that no spike decides."""
-    raised: float = 4.0
+    bound_factor: float = 4.0
     """Factor between the predicted likelihood ratio of a candidate and the most that its fit may bring.
     Source: the fits of all candidates of 86 simulated logs, docs/decisions.md."""
-    besides: float = 500.0
-    """Likelihood ratio that the fit may bring beyond that factor. Source: as for `raised`."""
-    open: float = 1e-3
+    bound_excess: float = 500.0
+    """Likelihood ratio that the fit may bring beyond that factor. Source: as for `bound_factor`."""
+    least_clear: float = 1e-3
     """Share of a candidate's squared columns outside the span of the model below which it is not
     identifiable."""
 

@@ -37,11 +37,11 @@ def cures_by_cause(robot: RobotModel | None = None) -> tuple[tuple[Cause, Term],
     scene = eventful_scene()
     own = scene.operating_point
     model = own.model if robot is None else replace(own.model, robot=robot)
-    believed = Prediction(model, own.standard, inverse_dynamics)
+    described = Prediction(model, own.standard, inverse_dynamics)
     warm = replace(scene.dataset.state, temperature=np.full_like(scene.dataset.state.position, 30.0))
     looks = (scene.dataset, replace(scene.dataset, state=warm))
     return tuple(
-        (cause, cause.term(Setting(look, believed, site, scalars)))
+        (cause, cause.term(Setting(look, described, site, scalars)))
         for look in looks
         for cause in AGAINST_REFERENCE
         if look is scene.dataset or cause.id == "friction_temperature"

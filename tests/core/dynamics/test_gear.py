@@ -21,9 +21,9 @@ from veritorque.core.signals.state import MotionState
 
 ROTOR = 0.7
 TERMS = {
-    "load_friction": lambda believed, rotor: LoadFriction(1, believed, rotor),
-    "spring": lambda believed, rotor: Elasticity(1, believed, 10.0, 20.0, 0.1, rotor),
-    "play": lambda believed, rotor: Backlash(1, believed, 2e-3, 40.0, rotor),
+    "load_friction": lambda described, rotor: LoadFriction(1, described, rotor),
+    "spring": lambda described, rotor: Elasticity(1, described, 10.0, 20.0, 0.1, rotor),
+    "play": lambda described, rotor: Backlash(1, described, 2e-3, 40.0, rotor),
 }
 
 
@@ -66,17 +66,17 @@ def test_what_acts_on_the_load_does_not_feel_a_rotor_that_is_known(term):
 
 
 def test_a_gear_transmits_a_body_that_joined_the_model_and_no_friction_that_did():
-    state, (believed, _) = swinging(3, 2.0), believed_apart_and_joined()
+    state, (described, _) = swinging(3, 2.0), believed_apart_and_joined()
     body = np.array([0.1, 0.0, 0.0, 0.2, 0.0, 0.3, 0.4, 0.1, 0.0, 2.0])
-    heavier = believed.standard.copy()
+    heavier = described.standard.copy()
     heavier[:10] += body
-    carried = replace(believed, joined=((Payload(1, 1, -np.inf), body), (Viscous(), np.ones(3))))
-    found, expected = (Gear(one, 1).load(state) for one in (carried, replace(believed, standard=heavier)))
+    carried = replace(described, joined=((Payload(1, 1, -np.inf), body), (Viscous(), np.ones(3))))
+    found, expected = (Gear(one, 1).load(state) for one in (carried, replace(described, standard=heavier)))
     np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9)
 
 
 def test_a_gear_is_not_known_to_transmit_a_spring_of_which_nobody_knows_where_it_rests():
-    state, (believed, _) = swinging(3, 2.0), believed_apart_and_joined()
-    sprung = replace(believed, joined=((Spring(1), np.array([30.0])),))
-    np.testing.assert_array_equal(Gear(sprung, 1).load(state), Gear(believed, 1).load(state))
-    assert np.abs(sprung.applied(state) - believed.applied(state)).max() > 1.0
+    state, (described, _) = swinging(3, 2.0), believed_apart_and_joined()
+    sprung = replace(described, joined=((Spring(1), np.array([30.0])),))
+    np.testing.assert_array_equal(Gear(sprung, 1).load(state), Gear(described, 1).load(state))
+    assert np.abs(sprung.applied(state) - described.applied(state)).max() > 1.0

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.core.dynamics.terms.beliefs import motion_of
+from tests.core.dynamics.terms.chains import motion_of
 from tests.tools import random_robot
 from veritorque.core.arrays import JointSeries, LinkTable
 from veritorque.core.dynamics.model import standard_model
@@ -23,17 +23,17 @@ def believed_with_friction(seed: int, joints: int = 4) -> Prediction:
 
 
 def test_a_prediction_is_the_torque_of_its_model():
-    believed, state = believed_with_friction(1), motion_of(1)
-    expected = believed.model.torque(believed.standard, state)
-    np.testing.assert_allclose(believed.torque(state), expected, rtol=1e-12, atol=1e-12)
+    described, state = believed_with_friction(1), motion_of(1)
+    expected = described.model.torque(described.standard, state)
+    np.testing.assert_allclose(described.torque(state), expected, rtol=1e-12, atol=1e-12)
 
 
 def test_load_friction_and_rotors_add_up_to_the_torque():
-    believed, state = believed_with_friction(2), motion_of(2)
-    rotors = np.array([one.symbol == "IA" for one in believed.model.parameters])
-    alone = believed.model.torque(np.where(rotors, believed.standard, 0.0), state)
-    whole = believed.load(state) + believed.friction(state) + alone
-    np.testing.assert_allclose(believed.torque(state), whole, rtol=1e-12, atol=1e-12)
+    described, state = believed_with_friction(2), motion_of(2)
+    rotors = np.array([one.symbol == "IA" for one in described.model.parameters])
+    alone = described.model.torque(np.where(rotors, described.standard, 0.0), state)
+    whole = described.load(state) + described.friction(state) + alone
+    np.testing.assert_allclose(described.torque(state), whole, rtol=1e-12, atol=1e-12)
 
 
 def test_a_state_that_was_asked_for_is_not_computed_again():
@@ -43,48 +43,48 @@ def test_a_state_that_was_asked_for_is_not_computed_again():
         asked.append(state)
         return inverse_dynamics(robot, links, state)
 
-    believed, state = replace(believed_with_friction(3), newton_euler=counted), motion_of(3)
+    described, state = replace(believed_with_friction(3), newton_euler=counted), motion_of(3)
     for _ in range(2):
-        believed.torque(state)
-        believed.load(state)
+        described.torque(state)
+        described.load(state)
     assert len(asked) == 1
     shift = MotionState(*(np.full((len(state.position), 1), size) for size in (0.1, 0.2, 0.3)))
     for _ in range(2):
-        believed.change(state, 0, shift)
-        believed.slopes(state, 0)
+        described.change(state, 0, shift)
+        described.slopes(state, 0)
     assert len(asked) == 7
 
 
 @pytest.mark.parametrize(("joint", "joints"), [(0, 4), (1, 4), (2, 4), (3, 4), (0, 1)])
 def test_a_small_shift_of_a_joint_changes_the_load_by_its_slopes(joint, joints):
-    believed, state = believed_with_friction(6, joints), motion_of(6, joints=joints)
+    described, state = believed_with_friction(6, joints), motion_of(6, joints=joints)
     rng = np.random.default_rng(7)
     shift = MotionState(*(rng.normal(size=(len(state.position), 1)) for _ in range(3)))
     size = 1e-6
     small = MotionState(size * shift.position, size * shift.velocity, size * shift.acceleration)
-    found = (believed.load(shift_joint(state, joint, small)) - believed.load(state)) / size
-    change = believed.change(state, joint, shift)
+    found = (described.load(shift_joint(state, joint, small)) - described.load(state)) / size
+    change = described.change(state, joint, shift)
     # What is left is of second order: a millionth, times how much slopes change over one radian.
     np.testing.assert_allclose(found, change, atol=1e-4 * np.abs(change).max())
 
 
 def test_the_slope_by_acceleration_is_the_mass_matrix():
-    believed, state = believed_with_friction(8), motion_of(8)
-    matrix = np.stack([believed.slopes(state, joint)[2] for joint in range(4)], axis=2)
+    described, state = believed_with_friction(8), motion_of(8)
+    matrix = np.stack([described.slopes(state, joint)[2] for joint in range(4)], axis=2)
     np.testing.assert_allclose(matrix, np.swapaxes(matrix, 1, 2), atol=1e-9 * np.abs(matrix).max())
 
 
 def test_what_is_kept_cannot_be_changed_by_who_asked():
-    believed, state = believed_with_friction(4), motion_of(4)
-    for series in (believed.torque(state), believed.load(state), *believed.slopes(state, 1)):
+    described, state = believed_with_friction(4), motion_of(4)
+    for series in (described.torque(state), described.load(state), *described.slopes(state, 1)):
         with pytest.raises(ValueError, match="read-only"):
             series[0] = 1.0
 
 
 def test_another_robot_with_the_same_bodies_is_computed_for_itself():
-    believed, state = believed_with_friction(5), motion_of(5)
-    weightless = replace(believed.model.robot, gravity=np.zeros(3))
-    bodies = believed.standard[: 10 * len(weightless.links)].reshape(-1, 10)
+    described, state = believed_with_friction(5), motion_of(5)
+    weightless = replace(described.model.robot, gravity=np.zeros(3))
+    bodies = described.standard[: 10 * len(weightless.links)].reshape(-1, 10)
     expected = inverse_dynamics(weightless, bodies, state)
-    np.testing.assert_array_equal(believed.load(state, weightless), expected)
-    assert np.abs(believed.load(state) - expected).max() > 1e-3
+    np.testing.assert_array_equal(described.load(state, weightless), expected)
+    assert np.abs(described.load(state) - expected).max() > 1e-3

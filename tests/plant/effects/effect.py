@@ -1,4 +1,4 @@
-"""Say where an effect may act on the plant: on belief, truth, friction, torque, the drive or the sensors.
+"""Say where an effect may act on the plant: on description, truth, friction, torque, drive or sensors.
 
 An effect is a frozen record of its physical parameters; the engine asks it at each of these places, and by
 default it changes nothing there.

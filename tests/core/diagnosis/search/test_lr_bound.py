@@ -76,7 +76,9 @@ def test_nothing_brings_more_than_so_many_times_what_is_predicted_of_it():
     scans = fitter.scan(none)[:16]
     brings = np.array([likelihood_ratio(none, with_candidate(fitter, none, one)) for one in scans])
     assert brings.max() > 100.0
-    assert np.all(brings < ENTRY.raised * np.maximum(predicted_likelihood_ratios(fitter, none, scans), 5.0))
+    assert np.all(
+        brings < ENTRY.bound_factor * np.maximum(predicted_likelihood_ratios(fitter, none, scans), 5.0)
+    )
 
 
 def test_beside_what_is_found_already_only_the_rest_is_predicted():
@@ -112,4 +114,4 @@ def test_what_will_bring_most_is_predicted_to(make, effect):
     reach = np.array(predicted_likelihood_ratios(fitter, none, scans))
     assert brings.max() > 100.0
     assert reach[brings.argmax()] > 0.5 * brings.max()
-    assert np.all(brings < ENTRY.raised * np.maximum(reach, 5.0))
+    assert np.all(brings < ENTRY.bound_factor * np.maximum(reach, 5.0))

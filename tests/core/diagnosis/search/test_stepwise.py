@@ -110,7 +110,9 @@ def test_a_cause_that_looks_small_beside_one_that_held_out_rows_refute_is_found_
     first, second = fitter.scan(none)
     assert first.candidate.cause.id == "quick"
     (small,) = predicted_likelihood_ratios(fitter, none, [second])
-    assert ENTRY.raised * small + ENTRY.besides < bic_gain(none, fitter.fit_with(none, first.candidate))
+    assert ENTRY.bound_factor * small + ENTRY.bound_excess < bic_gain(
+        none, fitter.fit_with(none, first.candidate)
+    )
     assert names(search_stepwise(fitter)) == [("quicker", (2,))]
 
 

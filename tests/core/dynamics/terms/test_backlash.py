@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.core.dynamics.terms.beliefs import JOINTS, believed_chain
+from tests.core.dynamics.terms.chains import JOINTS, described_chain
 from veritorque.core.dynamics.terms.backlash import Backlash, twist_of
 from veritorque.core.dynamics.terms.encoder_error import EncoderOffset
 from veritorque.core.signals.state import MotionState
@@ -49,17 +49,17 @@ def test_passing_over_the_time_in_contact_changes_nothing(half_width):
 
 
 def test_under_a_load_of_one_sign_play_is_a_zero_error():
-    believed, _ = believed_chain(2)
-    robot = believed.model.robot
+    described, _ = described_chain(2)
+    robot = described.model.robot
     time = np.arange(0.0, 1.0, 0.002)
     phases = np.arange(JOINTS)
     position = 0.05 * np.sin(4.0 * time[:, None] + phases)
     velocity = 0.2 * np.cos(4.0 * time[:, None] + phases)
     state = MotionState(position, velocity, -16.0 * position, time)
-    load = believed.load(state)
+    load = described.load(state)
     joint = 1 + next(j for j in range(JOINTS) if np.ptp(np.sign(load[:, j])) == 0)
-    (play,) = Backlash(joint, believed, 1e-3, 40.0).torques(robot, state)
-    (offset,) = EncoderOffset(joint, believed).torques(robot, state)
+    (play,) = Backlash(joint, described, 1e-3, 40.0).torques(robot, state)
+    (offset,) = EncoderOffset(joint, described).torques(robot, state)
     side = np.sign(load[0, joint - 1])
     # The shift of the play's column is finite, 1e-5 rad.
     np.testing.assert_allclose(play, side * offset, atol=1e-3 * np.abs(offset).max())

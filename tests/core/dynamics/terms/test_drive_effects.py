@@ -42,9 +42,9 @@ def accelerated(torque: np.ndarray, time: np.ndarray) -> MotionState:
 
 def test_a_curved_gain_adds_the_cube_of_the_torque_that_an_independent_engine_finds() -> None:
     bodies = random_bodies(np.random.default_rng(4), 3)
-    believed = Prediction(standard_model(ROBOT, ("rigid_body",)), bodies.ravel())
+    described = Prediction(standard_model(ROBOT, ("rigid_body",)), bodies.ravel())
     torque = pinocchio_torque(ROBOT, bodies, Motion(STATE.position, STATE.velocity, STATE.acceleration))
-    (column,) = CubicGain(2, believed).series(ROBOT, STATE)
+    (column,) = CubicGain(2, described).series(ROBOT, STATE)
     np.testing.assert_allclose(column, torque[:, 1] ** 3, rtol=1e-9, atol=1e-9 * np.abs(torque).max() ** 3)
 
 
@@ -84,9 +84,9 @@ def test_nothing_exceeds_a_limit_that_the_torque_does_not_reach() -> None:
 
 def test_the_excess_does_not_jump_as_the_limit_moves_past_a_sample() -> None:
     time = np.arange(0.0, 4.0, 0.05)
-    state, believed = accelerated(np.sin(time), time), flywheel_prediction()
+    state, described = accelerated(np.sin(time), time), flywheel_prediction()
     limits = np.linspace(0.3, 0.9, 1201)
-    columns = np.array([Saturation(1, believed, limit).series(FLYWHEEL, state)[0] for limit in limits])
+    columns = np.array([Saturation(1, described, limit).series(FLYWHEEL, state)[0] for limit in limits])
     moved = np.abs(np.diff(columns, axis=0)).max()
     # A limit that moves by 5e-4 moves an arch 2 s wide by less than its slope, 1 s, times 5e-4 / 0.43.
     assert moved < 2e-3

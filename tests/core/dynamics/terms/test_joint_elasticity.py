@@ -41,7 +41,7 @@ def motor(time):
 @pytest.mark.parametrize("damping_ratio", [0.02, 0.2])
 def test_the_columns_are_what_a_link_of_changing_inertia_adds(arm, damping_ratio):
     """The truth is integrated from the arm's closed equations, to all orders of the lag."""
-    body, believed = arm
+    body, described = arm
     time = np.arange(round(SECONDS * RATE_HZ)) / RATE_HZ
     state = MotionState(*motor(time), time)
     inertia = np.array([body.mass(angle)[0, 0] for angle in state.position])
@@ -58,10 +58,10 @@ def test_the_columns_are_what_a_link_of_changing_inertia_adds(arm, damping_ratio
         through = stiffness * lag[0] + damping * lag[1]
         return [lag[1], (needed[0] - through) / body.mass(angle)[0, 0]]
 
-    load = believed.load(state)[:, 0]
+    load = described.load(state)[:, 0]
     solved = solve_ivp(motion, (0.0, SECONDS), [load[0] / stiffness, 0.0], t_eval=time, rtol=1e-7, atol=1e-10)
     true = stiffness * solved.y[0] + damping * solved.y[1] - load
-    term = Elasticity(1, believed, 100.0, RESONANCE_HZ, damping_ratio)
+    term = Elasticity(1, described, 100.0, RESONANCE_HZ, damping_ratio)
     found = term.series(second.robot(), state)[0] / stiffness
     inner = slice(25, -25)
     assert np.std(found[inner] - true[inner]) < 0.03 * np.std(true[inner])
@@ -69,10 +69,10 @@ def test_the_columns_are_what_a_link_of_changing_inertia_adds(arm, damping_ratio
 
 def test_a_load_that_drives_its_own_swing_without_bound_leaves_finite_columns(arm):
     """As with degrees taken for rad: speeds are 57 times too large, and no number would hold the swing."""
-    believed = arm[1]
+    described = arm[1]
     time = np.arange(round(20.0 * RATE_HZ)) / RATE_HZ
     position, velocity, acceleration = (180.0 / np.pi * np.array(series) for series in motor(time))
-    column = Elasticity(0, believed, 5.0, RESONANCE_HZ, 0.02)
+    column = Elasticity(0, described, 5.0, RESONANCE_HZ, 0.02)
     (torques,) = column.torques(second.robot(), MotionState(position, velocity, acceleration, time))
     assert np.isfinite(torques).all()
     assert np.abs(torques).max() < 1e12

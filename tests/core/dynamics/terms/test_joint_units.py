@@ -29,7 +29,7 @@ def test_standard_parameters_of_a_slide_are_those_of_a_force_and_a_way(robot):
 
 @pytest.mark.parametrize("joint", [1, 2])
 def test_further_effects_follow_their_joint(robot, joint):
-    believed = Prediction(standard_model(robot, ("rigid_body",)), np.zeros(20))
-    terms = (Spring(joint), Stribeck(joint, 0.1), Elasticity(joint, believed, 10.0, 20.0, 0.1))
+    described = Prediction(standard_model(robot, ("rigid_body",)), np.zeros(20))
+    terms = (Spring(joint), Stribeck(joint, 0.1), Elasticity(joint, described, 10.0, 20.0, 0.1))
     units = [term.parameters(robot)[0].unit for term in terms]
     assert units == [["N m/rad", "N m", "rad/(N m)"], ["N/m", "N", "m/N"]][joint - 1]

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.core.dynamics.terms.beliefs import JOINTS, believed_chain, exact, motion_of, one_viscous_joint
+from tests.core.dynamics.terms.chains import JOINTS, described_chain, exact, motion_of, one_viscous_joint
 from veritorque.core.dynamics.prediction import shift_joint
 from veritorque.core.dynamics.terms.encoder_error import EncoderEccentricity, EncoderOffset
 from veritorque.core.dynamics.terms.time_delay import Delay
@@ -27,43 +27,43 @@ def sine(frequency: float) -> MotionState:
 
 @pytest.mark.parametrize("joint", range(1, JOINTS + 1))
 def test_a_zero_error_changes_the_torque_as_the_column_says(joint):
-    believed, bodies = believed_chain(joint)
+    described, bodies = described_chain(joint)
     measured = motion_of(joint)
     still = np.zeros((len(measured.position), 1))
     true = shift_joint(measured, joint - 1, MotionState(still - ERROR, still, still))
-    robot = believed.model.robot
+    robot = described.model.robot
     change = exact(robot, bodies, true) - exact(robot, bodies, measured)
-    (column,) = EncoderOffset(joint, believed).torques(robot, measured)
+    (column,) = EncoderOffset(joint, described).torques(robot, measured)
     np.testing.assert_allclose(ERROR * column, change, atol=FIRST_ORDER * np.abs(change).max())
 
 
 @pytest.mark.parametrize("joint", range(1, JOINTS + 1))
 def test_an_eccentric_disc_changes_the_torque_as_its_two_columns_say(joint):
-    believed, bodies = believed_chain(joint)
+    described, bodies = described_chain(joint)
     true, own, phase = motion_of(joint), joint - 1, 0.7
     q, dq, ddq = (one[:, [own]] for one in (true.position, true.velocity, true.acceleration))
     sine_, cosine = ERROR * np.sin(q + phase), ERROR * np.cos(q + phase)
     measured = shift_joint(true, own, MotionState(sine_, cosine * dq, cosine * ddq - sine_ * dq**2))
-    robot = believed.model.robot
+    robot = described.model.robot
     change = exact(robot, bodies, true) - exact(robot, bodies, measured)
-    along, across = EncoderEccentricity(joint, believed).torques(robot, measured)
+    along, across = EncoderEccentricity(joint, described).torques(robot, measured)
     found = ERROR * (np.cos(phase) * along + np.sin(phase) * across)
     np.testing.assert_allclose(found, change, atol=FIRST_ORDER * np.abs(change).max())
 
 
 def test_a_gain_scales_its_own_channel_and_no_other():
-    believed, bodies = believed_chain(0)
+    described, bodies = described_chain(0)
     state = motion_of(0)
-    term = TorqueGain(2, believed)
-    robot = believed.model.robot
+    term = TorqueGain(2, described)
+    robot = described.model.robot
     assert term.entries(robot) == ((1, 0),)
     np.testing.assert_allclose(term.series(robot, state)[0], exact(robot, bodies, state)[:, 1], rtol=1e-9)
 
 
 @pytest.mark.parametrize("time_constant", [0.005, 0.05])
 def test_a_filter_weakens_and_delays_a_sine_as_its_transfer_function_says(time_constant):
-    believed, state, frequency = one_viscous_joint(), sine(20.0), 20.0
-    (column,) = FilterLag(0, believed, time_constant).torques(believed.model.robot, state)
+    described, state, frequency = one_viscous_joint(), sine(20.0), 20.0
+    (column,) = FilterLag(0, described, time_constant).torques(described.model.robot, state)
     found = (state.velocity + time_constant * column)[2000:, 0]
     turned = frequency * time_constant
     wave = np.sin(frequency * state.time - np.arctan(turned))[2000:] / np.hypot(1.0, turned)
@@ -73,21 +73,21 @@ def test_a_filter_weakens_and_delays_a_sine_as_its_transfer_function_says(time_c
 
 
 def test_a_short_filter_is_a_delay():
-    believed, state = one_viscous_joint(), sine(5.0)
-    robot = believed.model.robot
-    (filtered,) = FilterLag(0, believed, 1e-3).torques(robot, state)
-    (delayed,) = Delay(0, believed).torques(robot, state)
+    described, state = one_viscous_joint(), sine(5.0)
+    robot = described.model.robot
+    (filtered,) = FilterLag(0, described, 1e-3).torques(robot, state)
+    (delayed,) = Delay(0, described).torques(robot, state)
     np.testing.assert_allclose(filtered[100:-2], delayed[100:-2], atol=0.006 * np.abs(delayed).max())
 
 
 def test_the_columns_of_an_encoder_do_not_depend_on_where_the_log_begins():
-    believed, _ = believed_chain(1)
+    described, _ = described_chain(1)
     state = motion_of(1, 8)
     later = replace(
         state, position=state.position[4:], velocity=state.velocity[4:], acceleration=state.acceleration[4:]
     )
-    robot = believed.model.robot
-    term = EncoderEccentricity(2, believed)
+    robot = described.model.robot
+    term = EncoderEccentricity(2, described)
     for whole, part in zip(term.torques(robot, state), term.torques(robot, later), strict=True):
         np.testing.assert_allclose(whole[4:], part, atol=1e-9)
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.core.dynamics.terms.beliefs import believed_chain, exact, motion_of
+from tests.core.dynamics.terms.chains import described_chain, exact, motion_of
 from tests.tools import Motion, pinocchio_torque, random_bodies, random_motion
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.newton_euler import inverse_dynamics
@@ -37,29 +37,29 @@ def test_a_wrong_entry_changes_the_torque_as_the_column_says(entry, joint):
     links[joint - 1] = replace(links[joint - 1], rotation=rotation, translation=translation)
     other = replace(robot, links=tuple(links))
     change = pinocchio_torque(other, bodies, motion) - pinocchio_torque(robot, bodies, motion)
-    believed = Prediction(standard_model(robot, ("rigid_body",)), bodies.ravel())
+    described = Prediction(standard_model(robot, ("rigid_body",)), bodies.ravel())
     state = MotionState(motion.position, motion.velocity, motion.acceleration)
-    (column,) = KinematicError(joint, believed, entry).torques(robot, state)
+    (column,) = KinematicError(joint, described, entry).torques(robot, state)
     np.testing.assert_allclose(ERROR * column, change, atol=FIRST_ORDER * np.abs(change).max())
 
 
 def test_gravity_that_is_turned_changes_the_torque_as_two_columns_say():
-    believed, bodies = believed_chain(3)
+    described, bodies = described_chain(3)
     state = motion_of(3)
-    robot = replace(believed.model.robot, gravity=np.array([0.0, 1.0, -9.7]))
+    robot = replace(described.model.robot, gravity=np.array([0.0, 1.0, -9.7]))
     turned = replace(robot, gravity=rotation_y(-2.0 * ERROR) @ rotation_x(ERROR) @ robot.gravity)
     change = exact(turned, bodies, state) - exact(robot, bodies, state)
-    about_x, about_y = Tilt(0, believed).torques(robot, state)
+    about_x, about_y = Tilt(0, described).torques(robot, state)
     np.testing.assert_allclose(
         ERROR * (about_x - 2.0 * about_y), change, atol=FIRST_ORDER * np.abs(change).max()
     )
 
 
 def test_a_planar_arm_does_not_feel_a_tilt_about_the_axis_across_gravity_that_lies_in_its_plane():
-    believed, _ = believed_chain(3)
-    links = tuple(replace(link, rotation=np.eye(3)) for link in believed.model.robot.links)
-    robot = replace(believed.model.robot, links=links, gravity=np.array([0.0, -9.81, 0.0]))
-    across, within = Tilt(0, Prediction(standard_model(robot, ("rigid_body",)), believed.standard)).torques(
+    described, _ = described_chain(3)
+    links = tuple(replace(link, rotation=np.eye(3)) for link in described.model.robot.links)
+    robot = replace(described.model.robot, links=links, gravity=np.array([0.0, -9.81, 0.0]))
+    across, within = Tilt(0, Prediction(standard_model(robot, ("rigid_body",)), described.standard)).torques(
         robot, motion_of(3)
     )
     assert not across.any()
@@ -67,8 +67,8 @@ def test_a_planar_arm_does_not_feel_a_tilt_about_the_axis_across_gravity_that_li
 
 
 def test_a_body_that_is_taken_up_adds_its_own_torque_from_then_on():
-    believed, bodies = believed_chain(4)
-    robot = believed.model.robot
+    described, bodies = described_chain(4)
+    robot = described.model.robot
     state = replace(motion_of(4), time=np.arange(6.0))
     load = random_bodies(np.random.default_rng(9), 1)[0]
     heavier = bodies.copy()
@@ -81,8 +81,8 @@ def test_a_body_that_is_taken_up_adds_its_own_torque_from_then_on():
 
 
 def test_a_push_upwards_is_what_holds_a_weight():
-    believed, _ = believed_chain(5)
-    robot = believed.model.robot
+    described, _ = described_chain(5)
+    robot = described.model.robot
     state = replace(motion_of(5), time=np.full(6, 1.0))
     weight = np.zeros((4, 10))
     weight[-1, 9] = 2.0
@@ -94,8 +94,8 @@ def test_a_push_upwards_is_what_holds_a_weight():
 
 
 def test_every_contact_has_a_wrench_of_its_own_inside_its_span_only():
-    believed, _ = believed_chain(5)
-    robot = believed.model.robot
+    described, _ = described_chain(5)
+    robot = described.model.robot
     state = replace(motion_of(5), time=np.arange(6.0))
     term = Contact(4, 4, ((0.5, 1.5), (3.5, 5.5)))
     columns = np.array(term.torques(robot, state)).reshape(2, len(WRENCH), 6, 4)
@@ -105,8 +105,8 @@ def test_every_contact_has_a_wrench_of_its_own_inside_its_span_only():
 
 
 def test_motion_changes_nothing_about_a_push():
-    believed, _ = believed_chain(5)
-    robot = believed.model.robot
+    described, _ = described_chain(5)
+    robot = described.model.robot
     state = replace(motion_of(5), time=np.full(6, 1.0))
     term = Contact(4, 4, ((0.0, 2.0),))
     for moving, resting in zip(term.torques(robot, state), term.torques(robot, at_rest(state)), strict=True):
@@ -114,10 +114,10 @@ def test_motion_changes_nothing_about_a_push():
 
 
 def test_pinocchio_and_the_plain_recursion_agree_on_the_chain_used_here():
-    believed, bodies = believed_chain(6)
+    described, bodies = described_chain(6)
     state = motion_of(6)
-    ours = believed.load(state)
+    ours = described.load(state)
     theirs = pinocchio_torque(
-        believed.model.robot, bodies, Motion(state.position, state.velocity, state.acceleration)
+        described.model.robot, bodies, Motion(state.position, state.velocity, state.acceleration)
     )
     np.testing.assert_allclose(ours, theirs, atol=1e-9)

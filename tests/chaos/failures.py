@@ -17,13 +17,13 @@ LOOK_S = 0.05
 """How often it is looked for a victim: a job takes a few times as long."""
 
 
-class Storm:
-    """Count what it did in `kills` and `freezes`; it ends when `calm` is set, and then sets `over`.
+class Failures:
+    """Count what it did in `kills` and `freezes`; it ends when `stop` is set, and then sets `ended`.
 
     Parameters
     ----------
     finished
-        Gives how many jobs are finished; the storm spreads over `jobs` of them.
+        Gives how many jobs are finished; they spread over `jobs` of them.
     """
 
     def __init__(self, fleet, finished, *, jobs, kills, freezes, seed):
@@ -33,15 +33,15 @@ class Storm:
         self._turns = itertools.cycle(TURNS)
         self._wanted_kills, self._wanted_freezes = kills, freezes
         self._frozen = {}
-        self.calm, self.over = threading.Event(), threading.Event()
+        self.stop, self.ended = threading.Event(), threading.Event()
 
     @property
     def killed(self):
         return sum(self.kills.values())
 
-    def rage(self):
+    def cause(self):
         """Kill and freeze; whatever died is started again."""
-        while not self.calm.is_set() and not self._enough():
+        while not self.stop.is_set() and not self._enough():
             self._fleet.revive()
             self._thaw(time.monotonic())
             if self._due(self._wanted_freezes, self.freezes + len(self._frozen)):
@@ -50,7 +50,7 @@ class Storm:
                 self._kill()
             time.sleep(self._random.uniform(0.0, PAUSE_S))
         self._thaw(float("inf"))
-        self.over.set()
+        self.ended.set()
 
     def _enough(self):
         return self.killed >= self._wanted_kills and self.freezes >= self._wanted_freezes

@@ -11,7 +11,7 @@ from veritorque.core.signals.state import MotionState
 JOINTS = 4
 
 
-def believed_chain(seed: int) -> tuple[Prediction, np.ndarray]:
+def described_chain(seed: int) -> tuple[Prediction, np.ndarray]:
     """Believe in the bodies of a chain of turning joints, and in nothing else."""
     rng = np.random.default_rng(seed)
     robot = random_robot(rng, JOINTS, prismatic=0.0)
