@@ -27,7 +27,7 @@ def refined(path: Path, described: Setup, trials: Trials) -> Path:
 def _with_gravity_refined(path: Path, described: Setup, trials: Trials) -> Path:
     """Put one direction in the place of all; none where they add up to a mere tilt of the described one."""
     mountings = [place for place, step in enumerate(path) if step.hypothesis.conflict == Mounting.name]
-    if len(path) == 1 or not mountings:
+    if not mountings:
         return path
     last = path[-1].hypothesis.setup
     if is_tilt(last.robot.gravity, described.robot.gravity):

@@ -36,16 +36,18 @@ class Mounting(Conflict):
     title = "Mounting of the robot"
 
     def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
-        """Refine the likeliest direction of gravity and its opposite, and the likeliest far from both."""
+        """Refine the likeliest direction of gravity and its opposite, and the likeliest far from both.
+
+        A mere tilt is among them, so that nothing else is named in its place (see `refinement`).
+        """
         described = np.asarray(setup.robot.gravity, dtype=float)
         size = float(np.linalg.norm(described))
         if size == 0.0:
             return
         bound = trials.under_gravity(setup)
-        for way in _likely(lambda way: bound(size * way)):
+        for found in _likely(lambda way: bound(size * way)):
+            way = found if is_tilt(found, described) else _usual(found)
             gravity = size * way
-            if is_tilt(gravity, described):
-                continue
             listed = ", ".join(f"{component + 0.0:.3g}" for component in gravity)
             yield Hypothesis(
                 self.name,
@@ -71,7 +73,7 @@ def _likely(bound: Bound) -> Iterator[Vector3]:
     best = _refined(first, bound)
     apart &= ~np.isclose(scores, bound(best))
     yield best
-    yield _usual(-best)
+    yield -best
     if apart.any():
         yield _COARSE[apart][np.argmin(scores[apart])]
 
@@ -87,7 +89,7 @@ def _refined(first: Vector3, bound: Bound) -> Vector3:
     def lost(step: np.ndarray) -> float:
         return float(bound(direction(step)))
 
-    return _usual(direction(fmin(lost, np.zeros(2), **_REFINEMENT)))
+    return direction(fmin(lost, np.zeros(2), **_REFINEMENT))
 
 
 def _usual(way: Vector3) -> Vector3:
