@@ -8,7 +8,7 @@ from .conflict import Hypothesis
 from .kinds.gear_ratio import GearRatio, factor_hypothesis, likeliest_factor, with_factor
 from .kinds.mounting import Mounting, is_tilt
 from .kinds.unit import Unit
-from .path import FoundConflict, Path, cost
+from .path import FoundConflict, Margins, Path, cost
 from .registry import CONFLICTS
 from .setup import Setup
 from .trial import Trials
@@ -34,16 +34,21 @@ def _with_gravity_refined(path: Path, described: Setup, trials: Trials) -> Path:
         return _with_gravity(path, described, None, trials)
     if mountings == [len(path) - 1]:
         return path
-    best = _best_mounting(last.with_gravity(described.robot.gravity), trials)
-    return path if best is None else min(path, _with_gravity(path, described, best, trials), key=cost)
+    equal = Margins.of(path[-1].after, trials).equal
+    best = _best_mounting(last.with_gravity(described.robot.gravity), trials, equal)
+    if best is None:
+        return path
+    again = _with_gravity(path, described, best, trials)
+    return again if cost(again) <= cost(path) + equal else path
 
 
-def _best_mounting(setup: Setup, trials: Trials) -> Hypothesis | None:
-    """Try every direction of gravity."""
+def _best_mounting(setup: Setup, trials: Trials, equal: float) -> Hypothesis | None:
+    """Try every direction of gravity, and give the most usual of those that predict alike."""
     listed = list(CONFLICTS[Mounting.name].hypotheses(setup, trials))
     outcomes = [trials.outcome(trials.equations(hypothesis.setup)) for hypothesis in listed]
-    tried = [(outcome.score, place) for place, outcome in enumerate(outcomes) if outcome is not None]
-    return listed[min(tried)[1]] if tried else None
+    scores = [np.inf if outcome is None else outcome.score for outcome in outcomes]
+    best = min(scores, default=np.inf)
+    return next((one for one, score in zip(listed, scores, strict=True) if score <= best + equal), None)
 
 
 def _with_gravity(path: Path, described: Setup, mounting: Hypothesis | None, trials: Trials) -> Path:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from .conflict import Hypothesis
 from .kinds.gear_ratio import GearRatio
 from .kinds.unit import Unit
 from .path import FoundConflict, Margins, Path, cost
@@ -93,6 +94,7 @@ def _is_poor(outcome: Outcome) -> bool:
 def _chosen(paths: list[Path], best: int, margins: Margins) -> Path:
     """Choose the best path, the most usual of those alike, and name the first steps of the undecided ones.
 
+    Those that predict as well as its first step are among them, unless they were followed and led elsewhere.
     A first step beyond those that predicted best is as sure as its path is before the others.
     """
     least = min(map(cost, paths))
@@ -100,10 +102,20 @@ def _chosen(paths: list[Path], best: int, margins: Margins) -> Path:
     chosen = paths[place]
     others = [path for path in paths if _corrections(path) != _corrections(chosen)]
     worse = [cost(path) - cost(chosen) for path in others]
-    alike = [path[0].hypothesis for path, more in zip(others, worse, strict=True) if more < margins.undecided]
+    undecided = [path for path, more in zip(others, worse, strict=True) if more < margins.undecided]
     against = sum(margins.likelihood(more) for more in worse if more >= margins.undecided)
     confidence = chosen[0].confidence if place < best else 1.0 / (1.0 + against)
-    return (replace(chosen[0], equivalents=tuple(alike), confidence=confidence), *chosen[1:])
+    return (
+        replace(chosen[0], equivalents=_alike(chosen, undecided, paths), confidence=confidence),
+        *chosen[1:],
+    )
+
+
+def _alike(chosen: Path, undecided: list[Path], paths: list[Path]) -> tuple[Hypothesis, ...]:
+    """Give the first steps of the undecided paths, and those as good as the chosen one that none follows."""
+    followed = {path[0].hypothesis for path in paths}
+    beside = (own for own in chosen[0].equivalents if own not in followed)
+    return (*(path[0].hypothesis for path in undecided), *beside)
 
 
 def _corrections(path: Path) -> set[str]:

@@ -53,11 +53,9 @@ class Decision:
 class Mounting:
     """Decide between directions of gravity. All are set by hand."""
 
-    usual_angle: float = np.radians(6.0)
-    """Angle, rad, to an axis of the base, or to halfway between two, within which a robot is taken to be
-    mounted along it."""
     least_angle: float = np.radians(12.0)
-    """Angle, rad, from the described direction below which a tilt is a cause with a size, and no conflict."""
+    """Angle, rad, from the described direction below which a tilt is a cause with a size, and no conflict;
+    and from an axis of the base, or from halfway between two, below which a robot may be mounted along it."""
     apart: float = np.radians(60.0)
     """Angle, rad, between two directions that are refined separately."""
 

@@ -45,9 +45,11 @@ class Mounting(Conflict):
         if size == 0.0:
             return
         bound = trials.under_gravity(setup)
-        for found in _likely(lambda way: bound(size * way)):
-            way = found if is_tilt(found, described) else _usual(found)
+        likely = _likely(lambda way: bound(size * way))
+        for way in (one for found in likely for one in _with_usual(found)):
             gravity = size * way
+            if np.allclose(gravity, described):
+                continue
             listed = ", ".join(f"{component + 0.0:.3g}" for component in gravity)
             yield Hypothesis(
                 self.name,
@@ -92,11 +94,12 @@ def _refined(first: Vector3, bound: Bound) -> Vector3:
     return direction(fmin(lost, np.zeros(2), **_REFINEMENT))
 
 
-def _usual(way: Vector3) -> Vector3:
-    """Take a direction near a usual mounting for it."""
-    angles = np.array([_angle(way, usual) for usual in _USUAL])
-    nearest = int(np.argmin(angles))
-    return _USUAL[nearest] if angles[nearest] < MOUNTING.usual_angle else way
+def _with_usual(way: Vector3) -> Iterator[Vector3]:
+    """Give the usual mounting that is a mere tilt away, which noise may hide, then the direction itself."""
+    nearest = min(_USUAL, key=lambda usual: _angle(way, usual))
+    if is_tilt(way, nearest):
+        yield nearest
+    yield way
 
 
 def _angle(first: Vector3, second: Vector3) -> float:
