@@ -27,7 +27,7 @@ from veritorque.core.validation.holdout import HoldOut
 ROBOTS = ("planar-2", "planar-3", "ur10e", "yumi-left")
 SECONDS = (15.0, 30.0, 60.0, 120.0)
 USUAL = SECONDS[1]
-QUICK_SECONDS = (6.0, 12.0)
+QUICK_SECONDS = (4.0, 8.0)
 BLOCKS = 40
 CLEAN_SEED = 11
 DRAWN = 10

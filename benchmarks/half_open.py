@@ -25,9 +25,9 @@ def run(*, quick: bool) -> list[Figure]:
         dropped: list[float] = []
         holding = threading.Thread(target=lambda: dropped.extend(asyncio.run(_hold(service.port, stuck))))
         holding.start()
-        during = others(1.0 if quick else 8.0)
+        during = others(0.2 if quick else 8.0)
         holding.join()
-        alone = others(1.0 if quick else 8.0)
+        alone = others(0.2 if quick else 8.0)
     return [
         Figure(
             f"99 % of the others' requests beside {stuck}, ms", f"{during.milliseconds(0.99):.1f}", "<= 50"

@@ -3,6 +3,7 @@
 import json
 import re
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -13,6 +14,7 @@ from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.model import RobotModel
 from veritorque.core.robot.urdf.read import robot_from_urdf
+from veritorque.core.study import IdentifyRequest, identify
 
 FRANKA_ROWS = 20_544
 TX40_TRAIN = (500, round((0.1 + 0.7 * 7.3) * 5000))
@@ -56,3 +58,14 @@ def measured_robot(name: str, *, coupled: bool = True) -> RobotModel:
     return robot_from_description(
         {"name": name, "joints": joints, "gravity": table["gravity"], "couplings": couplings}
     )
+
+
+def identified(name: str, *logs: JointLog, held_out: int | None = None, **options: object) -> dict[str, Any]:
+    """Identify a measured robot, once for all who ask the same; the fit does not see the log `held_out`."""
+    validation = {} if held_out is None else {"validation": {"logs": [held_out]}}
+    return _identified(name, logs, json.dumps({"bootstrap": {"draws": 0}} | validation | options))
+
+
+@cache
+def _identified(name: str, logs: tuple[JointLog, ...], options: str) -> dict[str, Any]:
+    return dict(identify(IdentifyRequest(measured_robot(name), logs, json.loads(options))))

@@ -35,10 +35,8 @@ KEY = {
 }
 DESCRIPTION = """Physically consistent dynamic identification of robots from their logs.
 
-Create a robot (or use a built-in one), upload a log, create a job of kind `identify`, read its results.
-A job of kind `diagnose` also finds the causes of the simulation error and their corrections. Both have an
-HTML report at `/v1/jobs/{job_id}/report`. A job of kind `check` says in a second whether robot and logs
-belong together.
+Create a robot (or use a built-in one), upload a log, create a job, read its results. `JobRequest` lists the
+kinds of job. Some have an HTML report at `/v1/jobs/{job_id}/report`.
 SI units, angles in rad, joints counted from 1. Numbers are finite: no request or response contains NaN or
 Infinity. Every failure is a problem document (RFC 9457) with cause, evidence and remedy."""
 

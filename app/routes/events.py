@@ -10,9 +10,10 @@ from typing import Annotated
 from fastapi import Header, Response
 from fastapi.responses import StreamingResponse
 
-from ..http.openapi import problems
+from ..http.openapi import problems, reference
 from ..http.routing import chapter
 from ..json_text import json_bytes
+from ..schemas.jobs import Job
 from ..services.job_feed import JobFeed, no_such_job
 from ..services.serialisers import job_document
 from ..services.services import ContextOf
@@ -24,23 +25,28 @@ MEDIA_TYPE = "text/event-stream"
 HEARTBEAT_S = 15.0
 """Silence after which a comment says that the connection lives."""
 COME_BACK_MS = 2000
+EVENT = {
+    "type": "object",
+    "required": ["data"],
+    "properties": {
+        "id": {"type": "string", "description": "version of the job"},
+        "event": {"enum": ["progress", "end"]},
+        "data": {"type": "string", "contentMediaType": "application/json", "contentSchema": reference(Job)},
+        "retry": {"type": "integer"},
+    },
+}
+"""An event as a client parses it. `itemSchema` is of OpenAPI 3.2; `schema` describes whole answers only."""
 HEADERS = {"Cache-Control": "no-store", "X-Accel-Buffering": "no"}
-
-
-class EventStream(StreamingResponse):
-    """Answer with server-sent events."""
-
-    media_type = MEDIA_TYPE
 
 
 @ROUTER.get(
     "/{job_id}/events",
-    response_class=EventStream,
+    response_class=Response,
     summary="Stream the progress of a job",
     responses=problems(404)
     | {
         200: {
-            "content": {MEDIA_TYPE: {"schema": {"type": "string"}}},
+            "content": {MEDIA_TYPE: {"itemSchema": EVENT}},
             "description": "An event `progress` at every change and `end` at the last; each holds the job",
         },
         204: {"description": "The job has ended and there are no further events"},
@@ -60,7 +66,7 @@ async def follow_job(
     known = _version(last_event_id)
     if job.finished and job.version == known:
         return Response(status_code=204)  # a browser does not reconnect after that
-    return EventStream(_events(context.feed, job, known), headers=HEADERS)
+    return StreamingResponse(_events(context.feed, job, known), headers=HEADERS, media_type=MEDIA_TYPE)
 
 
 async def _events(feed: JobFeed, job: JobRecord, known: int | None) -> AsyncIterator[bytes]:

@@ -12,13 +12,14 @@ if TYPE_CHECKING:
 else:
     Kind = Literal[tuple(KINDS)]
 FEWEST_LOGS = int(all(kind.takes_logs for kind in KINDS.values()))
+ANSWERS = " ".join(f"`{kind.name}`: {kind.words.hint}" for kind in KINDS.values())
 State = Literal["accepted", "running", "successful", "failed", "dismissed"]
 
 
 class JobRequest(Strict):
     """A request for a job: kind, robot and logs by id, and options."""
 
-    kind: Annotated[Kind, about("what to compute")]
+    kind: Annotated[Kind, about(f"what to compute. {ANSWERS}")]
     robot: Identity
     logs: Annotated[list[Identity], Field(min_length=FEWEST_LOGS, max_length=100)]
     options: Options = Field(

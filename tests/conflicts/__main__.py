@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from tests.conflicts.score import Answer, answer, mean_percent
+from tests.conflicts.score import Answer, answer, matters, mean_percent
 from tests.conflicts.spoil import SPOILERS
 from tests.measured import measured_log, measured_robot
 from tests.plant.cases import draw_clean
@@ -37,7 +37,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--each", type=int, default=2, help="how often each way is drawn on each robot")
     parser.add_argument("--robots", nargs="*", help="some of the robots")
     asked = parser.parse_args(arguments)
-    totals: dict[str, list[Answer]] = defaultdict(list)
+    totals: dict[str, list[tuple[Answer, bool]]] = defaultdict(list)
     for name, robot, log in robots(asked.seed):
         if asked.robots and name not in asked.robots:
             continue
@@ -46,9 +46,10 @@ def main(arguments: Sequence[str]) -> int:
             for number in range(1 if way == "nothing" else asked.each):
                 rng = np.random.default_rng([asked.seed, number, len(way), len(name)])
                 spoilt = spoiler(robot, log, rng)
-                found = answer(spoilt, sound)
-                totals[way].append(found)
-                mark = "ok " if found.exact else ("   " if not found.matters else "-- ")
+                found = answer(spoilt)
+                changes = bool(found.failed) or matters(spoilt, sound)
+                totals[way].append((found, changes))
+                mark = "ok " if found.exact else ("-- " if changes else "   ")
                 hidden = f"{way} {list(spoilt.joints)} {spoilt.channel}"
                 say(
                     f"{mark}{name:13} {hidden:38} {found.seconds:5.1f} s  "
@@ -71,11 +72,11 @@ def robots(seed: int) -> Iterator[tuple[str, RobotModel, JointLog]]:
         yield name, drawn.believed, drawn.log
 
 
-def _table(totals: dict[str, list[Answer]]) -> None:
+def _table(totals: dict[str, list[tuple[Answer, bool]]]) -> None:
     say(f"\n{'spoilt':20} {'drawn':>6} {'matter':>7} {'named':>6} {'share':>7}")
     matter = named = 0
     for way, answers in totals.items():
-        counted = [one for one in answers if one.matters or way == "nothing"]
+        counted = [one for one, changes in answers if changes or way == "nothing"]
         right = sum(one.exact for one in counted)
         share = f"{100.0 * right / len(counted):6.0f}%" if counted else ""
         say(f"{way:20} {len(answers):6} {len(counted):7} {right:6} {share}")
@@ -83,7 +84,7 @@ def _table(totals: dict[str, list[Answer]]) -> None:
             matter, named = matter + len(counted), named + right
     say(f"{'all that was spoilt':20} {'':6} {matter:7} {named:6} {100.0 * named / max(matter, 1):6.0f}%")
     silent = [
-        one for way, answers in totals.items() for one in answers if not one.matters and way != "nothing"
+        one for way, answers in totals.items() for one, changes in answers if not changes and way != "nothing"
     ]
     wrong = sum(bool(one.named) and not one.exact for one in silent)
     say(f"of {len(silent)} that change the error by less than a fifth, {wrong} are named wrongly")

@@ -1,6 +1,7 @@
 """Ask the service all its contract allows and much that it forbids: ``python -m tests.contract --cases n``.
 
-The service really listens, and computes nothing: jobs end at once.
+The service really listens, and computes nothing: jobs end at once. It has the log of the example requests, so
+that there are jobs.
 """
 
 import argparse
@@ -11,9 +12,11 @@ from pathlib import Path
 
 from tests.app.http.test_server import listening_service
 from tests.app.stubs import StubExecutor
+from veritorque.app.client.client import Client
 from veritorque.app.main import create_app
 from veritorque.app.settings import Settings
 
+LOG = Path(__file__).parents[2] / "examples" / "yumi" / "log.csv"
 CONFIGURATION = Path(__file__).with_name("schemathesis.toml")
 CHECKS = (
     "not_a_server_error",
@@ -37,6 +40,8 @@ def examine(directory: Path, *, cases: int, seed: int) -> subprocess.CompletedPr
     executor.release.set()
     plenty = {"requests_per_second": 1e6, "queued_per_tenant": 10**6, "disk_reserve_bytes": 0}
     with listening_service(directory, executor, **plenty) as (_, port):
+        with Client(f"http://127.0.0.1:{port}") as client:
+            client.upload(LOG)
         command = [
             *(sys.executable, "-m", "schemathesis.cli", "--config-file", str(CONFIGURATION)),
             *("run", f"http://127.0.0.1:{port}/openapi.json"),

@@ -19,7 +19,7 @@ from veritorque.core.robot.model import RobotModel
 from veritorque.core.study import IdentifyRequest
 
 NAME, SEED = "planar-3", 1
-SECONDS = {NAME: 16.0, "yumi-left": 8.0}
+SECONDS = {NAME: 12.0, "yumi-left": 8.0}
 LOAD = {"mass": 0.3, "com_x": 0.05, "com_y": 0.03}
 RUBBED = {"delta_viscous": 0.13, "delta_coulomb": 0.4}
 TILT = {"tilt_x": -0.03, "tilt_y": 0.02}

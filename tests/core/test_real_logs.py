@@ -11,19 +11,10 @@ from functools import cache
 import numpy as np
 import pytest
 
-from tests.measured import FRANKA_ROWS, TX40_TEST, TX40_TRAIN, measured_log, measured_robot
+from tests.measured import FRANKA_ROWS, TX40_TEST, TX40_TRAIN, identified, measured_log, measured_robot
 from tests.tools import shared
 from veritorque.core.log.model import JointLog
 from veritorque.core.study import IdentifyRequest, identify, identify_in_full
-
-
-def _document(
-    name: str, *logs: JointLog, held_out: int | None = None, **options: object
-) -> dict[str, object]:
-    """Identify with the default options; `held_out` is the number of the log that the fit does not see."""
-    validation = {"fraction": 0.0} if held_out is None else {"logs": [held_out]}
-    request = {"validation": validation, "bootstrap": {"draws": 0}, **options}
-    return identify(IdentifyRequest(measured_robot(name), logs, request))
 
 
 def _percents(document: dict[str, object], part: str) -> np.ndarray:
@@ -56,6 +47,9 @@ def _masses(document: dict[str, object]) -> np.ndarray:
     )
 
 
+SMOOTHED: dict[bool, dict[str, object]] = {False: {}, True: {"smooth_coulomb": True}}
+
+
 # ----------------------------------------------------------------------------------------------------- UR10e
 
 UR10E_FIT = (("fourier_30s_12h", 635, 3510), ("fourier_20s_8h", 320, 2310))
@@ -69,7 +63,7 @@ UR10E_HELD_OUT = {
 def _ur10e(run: str) -> dict[str, object]:
     start, stop, _ = UR10E_HELD_OUT[run]
     fitted = [measured_log("ur10e_open", *one) for one in UR10E_FIT]
-    return _document("ur10e_open", *fitted, measured_log("ur10e_open", run, start, stop), held_out=3)
+    return identified("ur10e_open", *fitted, measured_log("ur10e_open", run, start, stop), held_out=3)
 
 
 @pytest.mark.parametrize("run", UR10E_HELD_OUT)
@@ -86,7 +80,7 @@ def test_ur10e_predicts_a_motion_of_another_kind(smooth, train, validation):
         measured_log("ur10e_open", "fourier_30s_12h", 635, 3510),
         measured_log("ur10e_open", "validation_ptp_10pts", 700, 4200),
     )
-    document = _document("ur10e_open", *logs, held_out=2, smooth_coulomb=smooth)
+    document = identified("ur10e_open", *logs, held_out=2, **SMOOTHED[smooth])
     assert document["fit_total_percent"] <= train
     assert document["validation_total_percent"] <= validation
 
@@ -111,7 +105,7 @@ def test_the_real_robots_are_feasible_robots():
 @cache
 def _tx40(*, smooth: bool) -> dict[str, object]:
     logs = tuple(measured_log("staubli_tx40", "run1", *rows) for rows in (TX40_TRAIN, TX40_TEST))
-    return _document("staubli_tx40", *logs, held_out=2, smooth_coulomb=smooth)
+    return identified("staubli_tx40", *logs, held_out=2, **SMOOTHED[smooth])
 
 
 @pytest.mark.parametrize(("smooth", "train", "validation"), [(False, 6.1, 9.6), (True, 5.1, 7.9)])
@@ -212,7 +206,7 @@ def test_tx40_agrees_with_the_published_base_parameters_within_three_combined_de
 
 @cache
 def _franka(estimator: str) -> dict[str, object]:
-    return _document("franka_panda", *_franka_halves(), held_out=2, estimator=estimator)
+    return identified("franka_panda", *_franka_halves(), held_out=2, estimator=estimator)
 
 
 def _franka_halves() -> tuple[JointLog, ...]:
@@ -222,7 +216,12 @@ def _franka_halves() -> tuple[JointLog, ...]:
 
 @cache
 def _rokae(estimator: str) -> dict[str, object]:
-    return _document("rokae_xmate3", measured_log("rokae_xmate3", "excit"), estimator=estimator)
+    return identified(
+        "rokae_xmate3",
+        measured_log("rokae_xmate3", "excit"),
+        validation={"fraction": 0.0},
+        estimator=estimator,
+    )
 
 
 def test_franka_predicts_the_second_half_of_its_run_from_the_first():

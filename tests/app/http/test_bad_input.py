@@ -11,6 +11,7 @@ import pytest
 from tests.app.conftest import assert_problem
 from tests.app.planar_arm import columns, csv_log, description
 from veritorque.app.http.body.uploads import LONGEST_TEXT_FILE
+from veritorque.app.kinds.registry import KINDS
 
 JSON, CSV, XML = ({"Content-Type": kind} for kind in ("application/json", "text/csv", "application/xml"))
 
@@ -386,7 +387,6 @@ GOOD_JOB = {"kind": "identify", "robot": "yumi-left", "logs": ["log-none"], "opt
         ({"kind": None}, "/kind"),
         ({"robot": 7}, "/robot"),
         ({"robot": "x" * 100}, "/robot"),
-        ({"logs": []}, "/logs"),
         ({"logs": "log-none"}, "/logs"),
         ({"logs": ["a"] * 101}, "/logs"),
         ({"logs": [None]}, "/logs/0"),
@@ -401,7 +401,13 @@ def test_a_job_request_that_does_not_follow_the_contract_is_refused_at_the_spot(
 
 def test_an_unknown_kind_of_job_is_refused_with_the_known_ones(client):
     problem = client.post("/v1/jobs", json=GOOD_JOB | {"kind": "guess"}).json()
-    assert "'identify', 'diagnose', 'check' or 'audit'" in problem["evidence"]["errors"][0]["message"]
+    message = problem["evidence"]["errors"][0]["message"]
+    assert all(f"'{kind}'" in message for kind in KINDS)
+
+
+def test_a_job_without_a_log_is_refused_where_its_kind_needs_one(client):
+    problem = assert_problem(client.post("/v1/jobs", json=GOOD_JOB | {"logs": []}), 422, "request")
+    assert "/logs" in str(problem["evidence"])
 
 
 def test_a_robot_or_log_that_does_not_exist_is_named(client, log_id):

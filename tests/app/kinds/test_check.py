@@ -5,7 +5,9 @@ import pytest
 from tests.app.conftest import assert_problem, service
 from tests.app.planar_arm import csv_log, description
 from tests.app.stubs import InlineExecutor
+from veritorque.app.kinds.check import Check
 from veritorque.app.kinds.registry import KINDS
+from veritorque.app.problems import Problem
 from veritorque.app.schemas.setup_check import CheckDocument
 
 
@@ -32,3 +34,12 @@ def test_a_check_answers_a_document_of_its_own_and_is_no_reference(client):
     assert_problem(client.get(job["links"]["results"], headers={"Accept": "text/csv"}), 406, "not-acceptable")
     against = body | {"kind": "diagnose", "options": {"reference": job["id"]}}
     assert_problem(client.post("/v1/jobs", json=against), 422, "option")
+
+
+@pytest.mark.parametrize(("takes_logs", "refused"), [(True, 0), (False, 1)])
+def test_a_kind_takes_logs_or_none(monkeypatch, takes_logs, refused):
+    monkeypatch.setattr(Check, "takes_logs", takes_logs)
+    Check().require_logs(1 - refused)
+    with pytest.raises(Problem) as raised:
+        Check().require_logs(refused)
+    assert raised.value.evidence["pointer"] == "/logs"

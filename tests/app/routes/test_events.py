@@ -12,6 +12,7 @@ from tests.app.conftest import assert_problem, service
 from tests.app.http.test_server import listening_service
 from tests.app.stubs import add_job
 from veritorque.app.routes import events
+from veritorque.app.schemas.jobs import Job
 from veritorque.app.services.job_feed import POLL_S
 from veritorque.app.store.records import JobRequestRecord
 from veritorque.app.store.store import Store
@@ -72,9 +73,10 @@ def test_every_change_is_told_and_the_last_ends_the_stream(port, computing):
         assert json.loads(read()["data"])["progress"] == {"stage": "estimate", "fraction": 0.5}
         computing.keep_result(held, b"{}")
         last = read()
-        assert (last["event"], json.loads(last["data"])["state"]) == ("end", "successful")
+        assert (last["event"], Job.model_validate_json(last["data"]).state) == ("end", "successful")
         assert read() is None
     assert int(last["id"]) > int(first["id"])
+    assert {*first, *last, "retry"} == set(events.EVENT["properties"])
 
 
 def test_who_comes_back_hears_of_what_is_new_even_after_a_restart(tmp_path, computing):

@@ -57,6 +57,12 @@ def test_the_codes_of_the_guide_are_those_that_there_are():
     assert [int(one) for one in told] == [code.value for code in Exit]
 
 
-@pytest.mark.parametrize("name", [name for name in (*KINDS, *MODULES) if name not in ("openapi", "version")])
+@pytest.mark.parametrize("name", [name for name in MODULES if name not in ("openapi", "version")])
 def test_every_command_is_in_the_guide(name):
     assert f"`{name}" in GUIDE
+
+
+def test_every_kind_of_job_is_explained_where_the_guide_says():
+    assert "(api.md#jobrequest)" in GUIDE
+    reference = (ROOT / "docs" / "api.md").read_text(encoding="utf-8")
+    assert all(f"`{kind.name}`: {kind.words.hint}" in reference for kind in KINDS.values())

@@ -3,22 +3,12 @@
 The logs are public measurements kept beside the project; without them these tests skip and say so.
 """
 
-import json
 import re
-from functools import cache
 from pathlib import Path
 
-import numpy as np
-import pyarrow.parquet as pq
 import pytest
 
-from tests.tools import shared
-from veritorque.core.log.model import JointLog
-from veritorque.core.log.reader import log_from_arrays
-from veritorque.core.robot.description import robot_from_description
-from veritorque.core.robot.model import RobotModel
-from veritorque.core.robot.urdf.read import robot_from_urdf
-from veritorque.core.study import IdentifyRequest, identify
+from tests.measured import identified, measured_log
 
 ROOT = Path(__file__).parents[2]
 PRINTED = 0.06
@@ -60,41 +50,6 @@ def rows_of(page: str, head: str) -> list[list[str]]:
     return [[cell.strip() for cell in row.strip("|").split("|")] for row in table.strip().splitlines()[2:]]
 
 
-@cache
-def robot_of(name: str) -> RobotModel:
-    if name == "ur10e_open":
-        return robot_from_urdf(shared(f"data/{name}/robot.urdf").read_bytes())
-    table = json.loads(shared(f"data/{name}/model_mdh.json").read_text())
-    joints = [
-        {
-            "type": "revolute",
-            "theta_offset": row["theta"],
-            **{letter: row[letter] for letter in ("alpha", "d", "r")},
-        }
-        for row in table["mdh"]
-    ]
-    couplings = []
-    if name == "staubli_tx40":
-        joints[5]["rotor_inertia"] = False
-        couplings = [{"name": "wrist", "number": 6, "joints": [5, 6], "weights": [1.0, 1.0]}]
-    return robot_from_description(
-        {"name": name, "joints": joints, "gravity": table["gravity"], "couplings": couplings}
-    )
-
-
-@cache
-def log_of(name: str, cut: Cut) -> JointLog:
-    run, start, stop = cut
-    table = pq.read_table(shared(f"data/{name}/runs/{run}.parquet"))
-    joints = len(robot_of(name).joints)
-
-    def rows(prefix: str) -> np.ndarray:
-        columns = [table[f"{prefix}_{joint}"].to_numpy() for joint in range(1, joints + 1)]
-        return np.column_stack(columns)[start:stop]
-
-    return log_from_arrays(run, table["time"].to_numpy()[start:stop], rows("q"), rows("tau"))
-
-
 def test_the_table_has_the_rows_that_are_made_here():
     assert len(printed_rows()) == len(ROWS)
 
@@ -116,10 +71,8 @@ def test_the_table_of_the_readme_shortens_the_one_of_the_page():
 def test_every_row_of_the_accuracy_table_can_be_made_again(number):
     name, cuts, options = ROWS[number]
     _, _, band, percents, total = printed_rows()[number]
-    logs = tuple(log_of(name, cut) for cut in cuts)
-    held_out = {"validation": {"logs": [len(logs)]}} if len(logs) > 1 else {}
-    request = IdentifyRequest(robot_of(name), logs, {"bootstrap": {"draws": 0}, **held_out, **options})
-    made = identify(request)
+    logs = tuple(measured_log(name, *cut) for cut in cuts)
+    made = identified(name, *logs, held_out=len(logs) if len(logs) > 1 else None, **options)
     assert made["feasibility"]["feasible"]
     assert made["validation_total_percent"] == pytest.approx(float(total), abs=PRINTED)
     found = [row["nrmse_of_rms_percent"] for row in made["validation"]]
