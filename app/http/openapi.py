@@ -33,10 +33,14 @@ KEY = {
     "scheme": "bearer",
     "description": "API key created by the operator; not needed while the service listens on loopback only",
 }
-DESCRIPTION = """Physically consistent dynamic identification of robots from their logs.
+_KINDS = "\n".join(f"- A job of kind `{kind.name}`: {kind.words.hint}" for kind in JOB_KINDS.values())
+DESCRIPTION = f"""Physically consistent dynamic identification of robots from their logs.
 
-Create a robot (or use a built-in one), upload a log, create a job, read its results. `JobRequest` lists the
-kinds of job. Some have an HTML report at `/v1/jobs/{job_id}/report`.
+Create a robot (or use a built-in one), upload a log, create a job, read its results.
+
+{_KINDS}
+
+Those that identify have an HTML report at `/v1/jobs/{{job_id}}/report`.
 SI units, angles in rad, joints counted from 1. Numbers are finite: no request or response contains NaN or
 Infinity. Every failure is a problem document (RFC 9457) with cause, evidence and remedy."""
 
