@@ -17,6 +17,7 @@ from ..model import Defect, LogSource
 from .bandwidth import Bandwidth
 from .clock import Clock, longest_bridge
 from .direction import Direction
+from .filled import Filled
 from .leaps import Leaps
 from .plausibility import plausibility_defects
 from .repeats import Repeats, cut
@@ -26,6 +27,7 @@ from .saturation import Saturation
 from .spikes import Spikes
 from .stretch import Facts, Finder, Stretch, stretches
 from .stuck import Stuck
+from .unpowered import Unpowered
 from .velocity import Velocity
 
 
@@ -65,10 +67,11 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
         Resolution(samples),
     )
     repeats, bandwidth, spikes = Repeats(joints), Bandwidth(joints), Spikes(joints)
-    stuck, leaps = Stuck(joints, repeats), Leaps(layout.si_units()["position"], row_in_file)
+    stuck, filled, unpowered = Stuck(joints, repeats), Filled(joints, clock), Unpowered(joints)
+    leaps = Leaps(layout.si_units()["position"], row_in_file)
     finders: list[Finder] = [
-        clock, repeats, stuck, Saturation(joints), resolution, Rest(samples), bandwidth, Direction(joints),
-        Velocity(joints),
+        clock, repeats, stuck, filled, unpowered, Saturation(joints), resolution, Rest(samples),
+        bandwidth, Direction(joints), Velocity(joints),
     ]  # fmt: skip  # a table
     accepted = True
     for stretch in stretches(source):
@@ -100,7 +103,9 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
     return Examination(
         rate_hz=1.0 / facts.step,
         duration=facts.duration,
-        segments=cut(clock.segments(), (*repeats.frozen, *stuck.rows(facts))),
+        segments=cut(
+            clock.segments(), (*repeats.frozen, *stuck.rows(facts), *filled.rows(), *unpowered.rows(facts))
+        ),
         defects=(*found, *plausibility_defects(facts)),
     )
 

@@ -77,7 +77,7 @@ class Runs:
 
 
 class LongRuns:
-    """Keep what was known at both ends of every run of more than `STANDING_ROWS` marked rows.
+    """Keep what was known at both ends of every run of more than so many marked rows.
 
     Examples
     --------
@@ -88,7 +88,8 @@ class LongRuns:
     [[[10.0], [49.0]]]
     """
 
-    def __init__(self, values: int) -> None:
+    def __init__(self, values: int, longer_than: int = STANDING_ROWS) -> None:
+        self._longer_than = longer_than
         self._kept = [np.zeros((0, 2, values))]
         self._open: np.ndarray | None = None
         self._last = np.zeros(values)
@@ -113,7 +114,7 @@ class LongRuns:
         self._keep(edges[:whole].reshape(-1, 2, len(known)))
 
     def _keep(self, pairs: np.ndarray) -> None:
-        self._kept.append(pairs[pairs[:, 1, 0] - pairs[:, 0, 0] > STANDING_ROWS])
+        self._kept.append(pairs[pairs[:, 1, 0] - pairs[:, 0, 0] > self._longer_than])
 
     def close(self) -> None:
         """End the run that is still open, with what was known of the last row."""
