@@ -21,6 +21,7 @@ from .filled import Filled
 from .leaps import Leaps
 from .plausibility import plausibility_defects
 from .repeats import Repeats, cut
+from .replays import Replays
 from .resolution import Resolution
 from .rest import Rest
 from .saturation import Saturation
@@ -69,6 +70,7 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
     repeats, bandwidth, spikes = Repeats(joints), Bandwidth(joints), Spikes(joints)
     stuck, filled, unpowered = Stuck(joints, repeats), Filled(joints, clock), Unpowered(joints)
     leaps = Leaps(layout.si_units()["position"], row_in_file)
+    replays = Replays()
     finders: list[Finder] = [
         clock, repeats, stuck, filled, unpowered, Saturation(joints), resolution, Rest(samples),
         bandwidth, Direction(joints), Velocity(joints),
@@ -77,13 +79,14 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
     for stretch in stretches(source):
         accepted = contract.accepts(stretch) and accepted
         if accepted:
+            replays.update(stretch)
             usual = spikes.taken_from(stretch)
             leaps.update(usual)
             spread.update(usual)
             for finder in finders:
                 finder.update(usual)
     contract.check()
-    leaps.check()
+    leaps.check(replays.rows())
     facts = Facts(
         samples=samples,
         start=contract.start,
@@ -99,13 +102,18 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
     )
     check_sequence(facts)
     clock.bridge = longest_bridge(facts.step, max(bandwidth.edges(facts).values(), default=0.0))
-    found = [*spikes.defects(facts), *(defect for finder in finders for defect in finder.defects(facts))]
+    found = [
+        *spikes.defects(facts),
+        *replays.defects(facts),
+        *(defect for finder in finders for defect in finder.defects(facts)),
+    ]
+    apart = (
+        *repeats.frozen, *replays.rows(), *stuck.rows(facts), *filled.rows(), *unpowered.rows(facts),
+    )  # fmt: skip  # a table
     return Examination(
         rate_hz=1.0 / facts.step,
         duration=facts.duration,
-        segments=cut(
-            clock.segments(), (*repeats.frozen, *stuck.rows(facts), *filled.rows(), *unpowered.rows(facts))
-        ),
+        segments=cut(clock.segments(), apart),
         defects=(*found, *plausibility_defects(facts)),
     )
 

@@ -12,7 +12,7 @@ from ..channels import EFFORTS
 from ..model import Defect
 from .clock import Clock
 from .repeats import Rows, joined
-from .runs import KEPT, LongRuns
+from .runs import KEPT, LongRuns, is_no_chance
 from .stretch import Facts, Stretch, count_text
 from .stuck import MOVES, OFTEN, net_travel
 
@@ -22,8 +22,6 @@ STRAIGHT = 1e-3
 """Of the effort's usual bend: noise is seldom below it, the rounding of a filled line seldom above."""
 MOST_FILLED = 0.5
 """Of all samples: a larger share is how the effort was recorded."""
-BY_CHANCE = 1e-6
-"""A line is longer than chance makes one in a log with this probability."""
 
 
 class Filled:
@@ -116,9 +114,9 @@ class _Lines:
         others = self._rows - float(lasted.sum())
         if others <= MOST_FILLED * self._rows or self._turns <= OFTEN * others:
             return runs[:0]
-        chance = max(self._straight - float(lasted.sum()), 1.0) / others
+        clear = is_no_chance(lasted, (self._straight - float(lasted.sum())) / others, self._rows)
         moves = way * self._rows > MOVES * self._way * lasted
-        return np.asarray(runs[moves & (lasted * np.log(chance) + np.log(self._rows) < np.log(BY_CHANCE))])
+        return np.asarray(runs[moves & clear])
 
 
 def _bends(values: Samples, time: Samples) -> Vector:

@@ -5,10 +5,12 @@ A log can hold a million runs; the count and total are exact, and only the twent
 
 import numpy as np
 
-from ...arrays import EquationRows, SampleMask, Samples
+from ...arrays import EquationRows, Mask, SampleMask, Samples
 from ..model import STANDING_ROWS
 
 KEPT = 20
+BY_CHANCE = 1e-6
+"""A run is longer than chance makes one in a log with this probability."""
 
 
 class Runs:
@@ -128,3 +130,15 @@ class LongRuns:
     def ended(self) -> np.ndarray:
         """Give what was known at each run's first row and at the first after it, runs x ends x values."""
         return np.concatenate(self._kept)
+
+
+def is_no_chance(lasted: np.ndarray, share: float, rows: int) -> Mask:
+    """Tell which runs are longer than chance makes any in so many rows, a share of which is marked elsewhere.
+
+    Examples
+    --------
+    >>> is_no_chance(np.array([5.0, 6.0]), 0.01, 10_000)
+    array([False,  True])
+    """
+    chance = np.log(max(share, 1.0 / rows))
+    return np.asarray(lasted * chance + np.log(rows) < np.log(BY_CHANCE))

@@ -66,6 +66,12 @@ def braked(rng, position, torque):
     return "unpowered"
 
 
+def replayed(_rng, position, torque):
+    torque[2000:2050] = torque[1950:2000]
+    position[2600:2630], torque[2600:2630] = position[2560:2590], torque[2560:2590]
+    return "replayed_rows"
+
+
 def clipped(_rng, _position, torque):
     torque[:, 2] = np.clip(torque[:, 2], *(0.85 * np.abs(torque[:, 2]).max() * np.array([-1.0, 1.0])))
     return "saturation"
@@ -73,7 +79,9 @@ def clipped(_rng, _position, torque):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("hidden", [None, spring], ids=["nothing", "spring"])
-@pytest.mark.parametrize("spoil", [spikes, frozen, stalled, dead, deaf, hung, filled, braked, clipped])
+@pytest.mark.parametrize(
+    "spoil", [spikes, frozen, stalled, dead, deaf, hung, filled, braked, replayed, clipped]
+)
 def test_a_defect_of_the_log_neither_hides_a_cause_nor_makes_one(spoil, hidden):
     rows = measured_arm(hidden, seconds=14.0).dataset.motions[0].log.source.data
     position, torque = rows.position.copy(), rows.torque.copy()
