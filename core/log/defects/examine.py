@@ -17,15 +17,18 @@ from ..model import Defect, LogSource
 from .bandwidth import Bandwidth
 from .clock import Clock, longest_bridge
 from .direction import Direction
+from .filled import Filled
 from .leaps import Leaps
 from .plausibility import plausibility_defects
 from .repeats import Repeats, cut
+from .replays import Replays
 from .resolution import Resolution
 from .rest import Rest
 from .saturation import Saturation
 from .spikes import Spikes
 from .stretch import Facts, Finder, Stretch, stretches
 from .stuck import Stuck
+from .unpowered import Unpowered
 from .velocity import Velocity
 
 
@@ -65,22 +68,25 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
         Resolution(samples),
     )
     repeats, bandwidth, spikes = Repeats(joints), Bandwidth(joints), Spikes(joints)
-    stuck, leaps = Stuck(joints, repeats), Leaps(layout.si_units()["position"], row_in_file)
+    stuck, filled, unpowered = Stuck(joints, repeats), Filled(joints, clock), Unpowered(joints)
+    leaps = Leaps(layout.si_units()["position"], row_in_file)
+    replays = Replays()
     finders: list[Finder] = [
-        clock, repeats, stuck, Saturation(joints), resolution, Rest(samples), bandwidth, Direction(joints),
-        Velocity(joints),
+        clock, repeats, stuck, filled, unpowered, Saturation(joints), resolution, Rest(samples),
+        bandwidth, Direction(joints), Velocity(joints),
     ]  # fmt: skip  # a table
     accepted = True
     for stretch in stretches(source):
         accepted = contract.accepts(stretch) and accepted
         if accepted:
+            replays.update(stretch)
             usual = spikes.taken_from(stretch)
             leaps.update(usual)
             spread.update(usual)
             for finder in finders:
                 finder.update(usual)
     contract.check()
-    leaps.check()
+    leaps.check(replays.rows())
     facts = Facts(
         samples=samples,
         start=contract.start,
@@ -96,11 +102,18 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
     )
     check_sequence(facts)
     clock.bridge = longest_bridge(facts.step, max(bandwidth.edges(facts).values(), default=0.0))
-    found = [*spikes.defects(facts), *(defect for finder in finders for defect in finder.defects(facts))]
+    found = [
+        *spikes.defects(facts),
+        *replays.defects(facts),
+        *(defect for finder in finders for defect in finder.defects(facts)),
+    ]
+    apart = (
+        *repeats.frozen, *replays.rows(), *stuck.rows(facts), *filled.rows(), *unpowered.rows(facts),
+    )  # fmt: skip  # a table
     return Examination(
         rate_hz=1.0 / facts.step,
         duration=facts.duration,
-        segments=cut(clock.segments(), (*repeats.frozen, *stuck.rows(facts))),
+        segments=cut(clock.segments(), apart),
         defects=(*found, *plausibility_defects(facts)),
     )
 

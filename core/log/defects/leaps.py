@@ -6,7 +6,7 @@ missed look alike, but then every moving joint is farther on at once; a position
 to a channel that hangs. A step of a whole turn is a wrapped angle, whatever else there is.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -70,14 +70,22 @@ class Leaps:
                 ]
                 found.setdefault(joint, []).extend(leaps)
 
-    def check(self) -> None:
+    def check(self, apart: Collection[tuple[int, int]] = ()) -> None:
         """Refuse the log if a position leaps.
+
+        Parameters
+        ----------
+        apart
+            Rows that are cut out, from start to stop: a leap into or out of them is known.
 
         Raises
         ------
         LogError
             With how often each joint leaps, where first, and how far at most.
         """
+        for found in (self._wrapped, self._moved):
+            for leaps in found.values():
+                leaps[:] = [leap for leap in leaps if not _is_within(leap.row, apart)]
         if any(self._wrapped.values()):
             raise LogError(
                 "a position jumps by a whole turn from one sample to the next: the angle is wrapped",
@@ -103,6 +111,10 @@ class Leaps:
             for joint, leaps in sorted(found.items())
             if leaps
         }
+
+
+def _is_within(row: int, apart: Collection[tuple[int, int]]) -> bool:
+    return any(start <= row <= stop for start, stop in apart)
 
 
 def _usual(own: Samples) -> float:

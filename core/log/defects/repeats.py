@@ -4,6 +4,7 @@ Positions and torques together carry noise, so that an exact repeat is a copy an
 copies in a row are a robot that stands still, or a recorder that does while the robot moves on.
 """
 
+from collections.abc import Collection
 from itertools import pairwise
 
 import numpy as np
@@ -78,14 +79,14 @@ def cut(segments: Rows, frozen: Rows) -> Rows:
     >>> cut(((0, 50),), ((20, 30), (10, 40), (15, 20)))
     ((0, 10), (40, 50))
     """
-    out, apart = [], _join(frozen)
+    out, apart = [], joined(frozen)
     for start, stop in segments:
         inside = [min(max(edge, start), stop) for rows in apart for edge in rows]
         out += list(pairwise([start, *inside, stop]))[::2]
     return tuple((start, stop) for start, stop in out if stop > start)
 
 
-def _join(rows: Rows) -> Rows:
+def joined(rows: Collection[tuple[int, int]]) -> Rows:
     """Join what overlaps."""
     out: list[tuple[int, int]] = []
     for begin, stop in sorted(rows):

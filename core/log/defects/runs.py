@@ -5,10 +5,12 @@ A log can hold a million runs; the count and total are exact, and only the twent
 
 import numpy as np
 
-from ...arrays import EquationRows, SampleMask, Samples
+from ...arrays import EquationRows, Mask, SampleMask, Samples
 from ..model import STANDING_ROWS
 
 KEPT = 20
+BY_CHANCE = 1e-6
+"""A run is longer than chance makes one in a log with this probability."""
 
 
 class Runs:
@@ -77,7 +79,7 @@ class Runs:
 
 
 class LongRuns:
-    """Keep what was known at both ends of every run of more than `STANDING_ROWS` marked rows.
+    """Keep what was known at both ends of every run of more than so many marked rows.
 
     Examples
     --------
@@ -88,7 +90,8 @@ class LongRuns:
     [[[10.0], [49.0]]]
     """
 
-    def __init__(self, values: int) -> None:
+    def __init__(self, values: int, longer_than: int = STANDING_ROWS) -> None:
+        self._longer_than = longer_than
         self._kept = [np.zeros((0, 2, values))]
         self._open: np.ndarray | None = None
         self._last = np.zeros(values)
@@ -113,7 +116,7 @@ class LongRuns:
         self._keep(edges[:whole].reshape(-1, 2, len(known)))
 
     def _keep(self, pairs: np.ndarray) -> None:
-        self._kept.append(pairs[pairs[:, 1, 0] - pairs[:, 0, 0] > STANDING_ROWS])
+        self._kept.append(pairs[pairs[:, 1, 0] - pairs[:, 0, 0] > self._longer_than])
 
     def close(self) -> None:
         """End the run that is still open, with what was known of the last row."""
@@ -127,3 +130,15 @@ class LongRuns:
     def ended(self) -> np.ndarray:
         """Give what was known at each run's first row and at the first after it, runs x ends x values."""
         return np.concatenate(self._kept)
+
+
+def is_no_chance(lasted: np.ndarray, share: float, rows: int) -> Mask:
+    """Tell which runs are longer than chance makes any in so many rows, a share of which is marked elsewhere.
+
+    Examples
+    --------
+    >>> is_no_chance(np.array([5.0, 6.0]), 0.01, 10_000)
+    array([False,  True])
+    """
+    chance = np.log(max(share, 1.0 / rows))
+    return np.asarray(lasted * chance + np.log(rows) < np.log(BY_CHANCE))

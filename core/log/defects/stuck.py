@@ -106,7 +106,7 @@ class _Signal:
         after = np.append(np.abs(values[2:] - values[:-2]), steps[-1:])
         before = np.append(self._before, steps[:-1])
         rows = first + 1.0 + np.arange(len(steps))
-        way = self._way + _net_travel(position)
+        way = self._way + net_travel(position)
         known = (rows, time[:-1], way[:-1], values[:-1], steps, after, before, np.diff(time))
         self._runs.feed(same, np.vstack(known))
         self._rows += len(steps)
@@ -164,7 +164,7 @@ class _Signal:
         return runs
 
 
-def _net_travel(position: Samples) -> Samples:
+def net_travel(position: Samples) -> Samples:
     """Give how far a joint has got at every sample, from one to one many later: noise gets nowhere."""
     marks = np.arange(len(position)) // STANDING_ROWS
     marked = position[::STANDING_ROWS]

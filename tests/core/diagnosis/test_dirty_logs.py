@@ -51,6 +51,27 @@ def hung(_rng, position, _torque):
     return "stuck_channel"
 
 
+def filled(_rng, position, torque):
+    for values in (position, torque):
+        values[2000:2100] = np.linspace(values[1999], values[2100], 102)[1:-1]
+    return "filled_rows"
+
+
+def braked(rng, position, torque):
+    went = np.minimum(np.arange(1.0, 201.0), 30.0)
+    first = len(position) - len(went)
+    speed = position[first - 1] - position[first - 2]
+    position[first:] = position[first - 1] + np.outer(went - went**2 / 60.0, speed)
+    torque[first:] = 0.02 * np.std(torque, axis=0) * rng.normal(size=(len(went), torque.shape[1]))
+    return "unpowered"
+
+
+def replayed(_rng, position, torque):
+    torque[2000:2050] = torque[1950:2000]
+    position[2600:2630], torque[2600:2630] = position[2560:2590], torque[2560:2590]
+    return "replayed_rows"
+
+
 def clipped(_rng, _position, torque):
     torque[:, 2] = np.clip(torque[:, 2], *(0.85 * np.abs(torque[:, 2]).max() * np.array([-1.0, 1.0])))
     return "saturation"
@@ -58,7 +79,9 @@ def clipped(_rng, _position, torque):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("hidden", [None, spring], ids=["nothing", "spring"])
-@pytest.mark.parametrize("spoil", [spikes, frozen, stalled, dead, deaf, hung, clipped])
+@pytest.mark.parametrize(
+    "spoil", [spikes, frozen, stalled, dead, deaf, hung, filled, braked, replayed, clipped]
+)
 def test_a_defect_of_the_log_neither_hides_a_cause_nor_makes_one(spoil, hidden):
     rows = measured_arm(hidden, seconds=14.0).dataset.motions[0].log.source.data
     position, torque = rows.position.copy(), rows.torque.copy()
