@@ -2,7 +2,8 @@
 
 While all joints stand, gravity is constant and friction holds any torque up to its level. So torque may
 change by twice that level without anything happening. What changes by more, and returns before the arm moves
-again, came from outside. A brake that engages or a controller that relaxes does not return.
+again, came from outside. A brake that engages or a controller that relaxes does not return; one that opens
+does so where the arm begins to move.
 """
 
 from collections.abc import Iterator, Sequence
@@ -11,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import norm
 
-from ...arrays import Indices, JointSeries, JointVector
+from ...arrays import Indices, JointSeries, JointVector, SampleMask
 from ...dynamics.jacobian import Jacobian
 from ...dynamics.prediction import Prediction
 from ...dynamics.terms.coulomb import Coulomb
@@ -64,10 +65,16 @@ def contacts_at_rest(dataset: Dataset, operating_point: Prediction) -> tuple[Sam
         torque = dataset.torque[rows]
         ends = np.array([np.median(part, axis=0) for part in (torque[:edge], torque[-edge:])])
         change = torque - ends.mean(axis=0)
-        beyond = (np.abs(change) > scale.limits).any()
-        if beyond and (np.abs(ends[1] - ends[0]) < scale.limits).all():
+        returns = (np.abs(ends[1] - ends[0]) < scale.limits).all()
+        if returns and _lies_between((np.abs(change) > scale.limits).any(axis=1)):
             pushes.append(_push(dataset, rows, change, jacobian[rows], scale))
     return (_finding(dataset, joint, pushes),) if pushes else ()
+
+
+def _lies_between(beyond: SampleMask) -> bool:
+    """Tell whether there are such rows, and none near either end of a stand."""
+    near = AT_REST.edge_rows
+    return bool(beyond[near:-near].any() and not (beyond[:near].any() or beyond[-near:].any()))
 
 
 def _scale(dataset: Dataset, operating_point: Prediction) -> _Scale:

@@ -90,3 +90,11 @@ def test_what_friction_can_hold_is_no_push():
 def test_a_brake_that_takes_the_torque_is_no_push():
     log = with_torque(standing(), lambda time: -TORQUE * ((time > PUSH[0]) & (time < STAND[1])))
     assert found_in(log) == ()
+
+
+@pytest.mark.parametrize("released", [11.9, 12.0])
+def test_a_brake_that_opens_as_the_arm_begins_to_move_is_no_push(released):
+    """It held the arm all the time before; the torque of the drives does not return."""
+    log = standing()
+    held = with_torque(log, lambda time: np.where((time > STAND[0]) & (time < released), -TORQUE, 0.0))
+    assert found_in(held) == ()
