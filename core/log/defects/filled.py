@@ -20,6 +20,8 @@ FEWEST_FILLED = 5
 """Fewer samples in a row may lie on a line by chance."""
 STRAIGHT = 1e-3
 """Of the effort's usual bend: noise is seldom below it, the rounding of a filled line seldom above."""
+_EVERY = 8
+"""Of so many samples one is enough to tell what bend is usual."""
 MOST_FILLED = 0.5
 """Of all samples: a larger share is how the effort was recorded."""
 
@@ -96,7 +98,8 @@ class _Lines:
         """Take the next samples, of which all but the first and last have a bend."""
         changes = np.diff(values)
         bends = _bends(values, time)
-        usual = float(np.median(bends[bends > 0.0])) if bends.any() else 0.0
+        some = bends[::_EVERY]
+        usual = float(np.median(some[some > 0.0])) if some.any() else 0.0
         straight = (bends <= STRAIGHT * usual) & (changes[1:] != 0.0)
         rows = first + 1.0 + np.arange(len(straight))
         way = self._way + net_travel(position[1:])

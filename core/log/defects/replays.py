@@ -82,8 +82,10 @@ def _keys(efforts: Series) -> np.ndarray:
 
 def _lags(keys: np.ndarray) -> Indices:
     """Give how many rows before each one the last equal row is; 0 where there is none."""
+    lags, ranked = np.zeros(len(keys), dtype=int), np.sort(keys)
+    if not np.any(ranked[1:] == ranked[:-1]):
+        return lags  # to sort the numbers alone takes a fifth of the time
     order = np.argsort(keys, kind="stable")
     same = keys[order[1:]] == keys[order[:-1]]
-    lags = np.zeros(len(keys), dtype=int)
     lags[order[1:][same]] = (order[1:] - order[:-1])[same]
     return lags
