@@ -21,8 +21,8 @@ NO_EFFORT = 0.1
 arm, and noise of a few per cent stays below."""
 SOME_EFFORT = 2.0 * NO_EFFORT
 FALL_SECONDS = 0.02
-"""So much as that was there so shortly before. A motor's current is gone in a few milliseconds, and what a
-controller takes back it takes back more slowly."""
+"""So much as that was there so shortly before, and more than 99 % of the changes in such a time. A motor's
+current is gone in a few milliseconds, and what a controller takes back it takes back more slowly."""
 HARDLY = 0.25
 """Of its mean speed in the log, at most, with which any joint gets on meanwhile: brakes hold it."""
 
@@ -37,6 +37,7 @@ class Unpowered:
         self._rows = 0
         self._effort = EFFORTS[0]
         self._levels: Samples | None = None
+        self._change = 0.0
 
     def update(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
@@ -50,8 +51,10 @@ class Unpowered:
             self._levels = np.zeros(max(round(FALL_SECONDS / float(np.median(np.diff(time)))), CONTEXT_ROWS))
         levels = np.append(self._levels, level)
         self._levels = levels[len(level) :]
+        before = levels[: len(level)]
+        self._change = max(self._change, float(np.quantile(np.abs(before - level), USUAL_SHARE)))
         rows = stretch.first + stretch.context + np.arange(len(level))
-        known = np.vstack([rows, time, levels[: len(level)], position])
+        known = np.vstack([rows, time, before, position])
         self._runs.feed(level < NO_EFFORT, known)
         steps = np.abs(np.diff(stretch.position[:, stretch.first_new :], axis=1))
         self._way, self._rows = self._way + steps.sum(axis=1), self._rows + steps.shape[1]
@@ -86,7 +89,7 @@ class Unpowered:
         usual = self._way / max(self._rows, 1)
         moved = np.any(way > usual, axis=1)
         held = np.all(way <= HARDLY * usual * rows[:, None], axis=1)
-        fell = runs[:, 0, _BEFORE] > SOME_EFFORT
+        fell = runs[:, 0, _BEFORE] > max(SOME_EFFORT, NO_EFFORT + self._change)
         return np.asarray(runs[fell & moved & held & (seconds >= SHORTEST_SECONDS - facts.step)])
 
 

@@ -56,3 +56,13 @@ def test_an_arm_that_coasts_is_not_cut():
     time, position, torque = healthy()
     torque[2000:2500] = NOISE[2000:2500]
     assert log_of(time, position, torque).segments == ((0, 5000),)
+
+
+@pytest.mark.parametrize("rate_hz", [25.0, 50.0, 100.0])
+@pytest.mark.parametrize("phase", np.linspace(0.0, 3.0, 7))
+def test_a_load_that_passes_zero_where_its_joint_turns_round_is_not_cut(rate_hz, phase):
+    """At a low rate it is there four samples before."""
+    time = np.arange(0.0, 20.0, 1.0 / rate_hz)
+    swing = 0.5 * np.sin(2.0 * np.pi * 0.25 * time) + 0.3 * np.sin(2.0 * np.pi * 0.6 * time + phase)
+    log = log_of(time, swing[:, None], np.sin(swing)[:, None])
+    assert "unpowered" not in {defect.kind for defect in log.defects}
