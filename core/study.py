@@ -259,8 +259,9 @@ def _explain(
     """Extend the model by the causes that were found, and measure what that gains."""
     task, problem, options = settled.task, settled.fit.problem, settled.task.options
     last = _scale_progress(tell, 0.8, 0.15)
+    conflicts, doubted = settled.conflicts, bool(contradictions(before))
     found = with_reservations(
-        found, open_conflict=settled.conflicts.is_open, doubted=bool(contradictions(before))
+        found, open_conflict=conflicts.is_open, doubted=doubted, rescaled=conflicts.estimates_a_factor
     )
     plain = problem if reference is None else replace(problem, prior=reference.prior)
     found, proof = verified(found, options, plain, lambda: tell("verify", 0.78))

@@ -5,6 +5,7 @@ from itertools import takewhile
 
 from ..estimate.problem import Problem
 from ..log.model import JointLog
+from .kinds.gear_ratio import GearRatio
 from .path import FoundConflict
 from .samples import sampled
 from .search import find_conflicts
@@ -30,6 +31,11 @@ class Conflicts:
     def is_open(self) -> bool:
         """Tell whether something disagrees that was not corrected."""
         return (bool(self.found) and not self.applied) or any(self.stamp_factors)
+
+    @property
+    def estimates_a_factor(self) -> bool:
+        """Tell whether a torque was multiplied by a factor that is an estimate."""
+        return any(step.hypothesis.conflict == GearRatio.name for step in self.found)
 
     @property
     def setup(self) -> Setup | None:

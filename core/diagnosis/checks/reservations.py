@@ -9,11 +9,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..causes.torque_gain import TorqueGain
 from ..result import Diagnosis, Finding
 from ..thresholds.checks import CONFIDENCE, RESIDUAL, VERDICT
 
 
-def with_reservations(found: Diagnosis, *, open_conflict: bool, doubted: bool) -> Diagnosis:
+def with_reservations(
+    found: Diagnosis, *, open_conflict: bool, doubted: bool, rescaled: bool = False
+) -> Diagnosis:
     """Limit confidences and verdict.
 
     Parameters
@@ -22,9 +25,15 @@ def with_reservations(found: Diagnosis, *, open_conflict: bool, doubted: bool) -
         Whether robot and logs disagree in something that was not corrected.
     doubted
         Whether the identification contradicts the model, the logs or itself.
+    rescaled
+        Whether a torque was multiplied by an estimated factor. Gains are relative: whichever joint one is
+        found on, it may be the estimate's error.
     """
     failed = open_conflict or any(_joints_not_fitted(found))
-    findings = tuple(as_doubtful(finding) if failed else finding for finding in found.findings)
+    findings = tuple(
+        as_doubtful(finding) if failed or (rescaled and finding.cause == TorqueGain.id) else finding
+        for finding in found.findings
+    )
     claims_nothing = found.verdict == "nothing_found" and (failed or doubted)
     return replace(
         found,
