@@ -46,9 +46,9 @@ def _best_mounting(setup: Setup, trials: Trials, equal: float) -> Hypothesis | N
     """Try every direction of gravity, and give the most usual of those that predict alike."""
     listed = list(CONFLICTS[Mounting.name].hypotheses(setup, trials))
     outcomes = [trials.outcome(trials.equations(hypothesis.setup)) for hypothesis in listed]
-    scores = [np.inf if outcome is None else outcome.score for outcome in outcomes]
-    best = min(scores, default=np.inf)
-    return next((one for one, score in zip(listed, scores, strict=True) if score <= best + equal), None)
+    fitted = [(outcome.score, place) for place, outcome in enumerate(outcomes) if outcome is not None]
+    alike = [place for score, place in fitted if score <= min(fitted)[0] + equal]
+    return listed[alike[0]] if alike else None
 
 
 def _with_gravity(path: Path, described: Setup, mounting: Hypothesis | None, trials: Trials) -> Path:
