@@ -19,6 +19,9 @@ _STATEMENTS = {
 }
 FEWEST_LOST = 3
 """A channel that is lost for fewer samples has a spike: the median of five takes its place."""
+FEWEST_ZEROS = 3
+"""Runs of zeros that a channel leaps into and out of, and half of its zeros at least: then none is its own.
+One in a hundred of a channel's own zeros leaps like this, so that chance gives 3e-4."""
 
 
 class IdleRows:
@@ -82,11 +85,13 @@ def _blank(rows: LogRows) -> SampleMask:
 
 
 def _lost(rows: LogRows) -> SampleMask:
-    """Mark short runs of one value that a channel of one joint leaps into and out of."""
+    """Mark short runs of one value, or of zeros, that a channel of one joint leaps into and out of."""
     marks = np.zeros(len(rows.time), dtype=bool)
     for values in _measured(rows):
         same = values[1:] == values[:-1]
-        for joint in np.flatnonzero(np.any(same[1:] & same[:-1], axis=0)):
+        repeated = np.any(same[1:] & same[:-1], axis=0)
+        zero = np.count_nonzero(values == 0.0, axis=0) >= FEWEST_ZEROS
+        for joint in np.flatnonzero(repeated | zero):
             starts, stops = _lost_runs(values[:, joint])
             inside = _are_inside(rows.time, starts, stops)
             marks |= _between(starts[inside], stops[inside], len(marks))
@@ -100,12 +105,19 @@ def _lost_runs(values: Samples) -> tuple[Indices, Indices]:
     """
     edges = np.flatnonzero(values[1:] != values[:-1]) + 1
     steps = np.abs(values[edges] - values[edges - 1])
-    short = (np.diff(edges) >= FEWEST_LOST) & (np.diff(edges) <= STANDING_ROWS)
-    others = ~(np.append(short, False) | np.append(False, short)) & np.isfinite(steps)
+    lengths = np.diff(edges)
+    short = (lengths >= FEWEST_LOST) & (lengths <= STANDING_ROWS)
+    zeros = (values[edges[:-1]] == 0.0) & (lengths <= STANDING_ROWS)
+    candidates = short | zeros
+    others = ~(np.append(candidates, False) | np.append(False, candidates)) & np.isfinite(steps)
     if not others.any():
         return edges[:0], edges[:0]
-    far = max(JUMP_FACTOR * np.quantile(steps[others], USUAL_SHARE), GRID_STEPS * steps[others].min())
-    lost = short & (np.minimum(steps[:-1], steps[1:]) > far)
+    leaps, usual = np.minimum(steps[:-1], steps[1:]), np.quantile(steps[others], USUAL_SHARE)
+    lost = short & (leaps > max(JUMP_FACTOR * usual, GRID_STEPS * steps[others].min()))
+    # A channel that passes zero has another sign behind it.
+    returns = zeros & (values[edges[:-1] - 1] * values[edges[1:]] > 0.0) & (leaps > usual)
+    if returns.sum() >= max(FEWEST_ZEROS, 0.5 * zeros.sum()):
+        lost |= zeros
     return edges[:-1][lost], edges[1:][lost]
 
 

@@ -112,6 +112,27 @@ def test_a_position_that_is_lost_for_a_moment_is_left_out_and_does_not_refuse_th
     assert {defect.kind: defect.count for defect in log.defects}["lost_values"] == 4
 
 
+@pytest.mark.parametrize("rows", [1, 2, 6])
+def test_zeros_in_a_coarse_log_are_left_out_however_small_their_leaps_are(tmp_path, rows):
+    """Between samples of a slow bus a torque steps as far as a zero lies from it."""
+    time, position, torque = (series[::10] for series in (TIME, POSITION, TORQUE + NOISE))
+    torque = torque + np.array([1.0, 0.0])
+    lost = range(20, 280, 20)
+    for first in lost:
+        torque[first : first + rows] = 0.0
+    log = read(tmp_path, time, position, torque)
+    assert {defect.kind: defect.count for defect in log.defects}["lost_values"] == len(lost) * rows
+
+
+def test_zeros_that_a_channel_passes_or_rests_at_are_its_own(tmp_path):
+    """Of a coarse friction torque, and of a current that is not reported below its dead zone."""
+    coarse = np.round(4.0 * np.tanh(40.0 * TORQUE[:, 0]) + NOISE[:, 0])
+    silent = np.where(np.abs(TORQUE[:, 1]) < 0.3, 0.0, TORQUE[:, 1] + NOISE[:, 1])
+    log = read(tmp_path, TIME, POSITION, np.column_stack([coarse, silent]))
+    assert log.samples == 3000
+    assert "lost_values" not in {defect.kind for defect in log.defects}
+
+
 @pytest.mark.parametrize("held", [2, 4, 10])
 def test_a_torque_that_is_sampled_more_slowly_than_the_positions_loses_no_row(tmp_path, held):
     torque = np.repeat((TORQUE + NOISE)[::held], held, axis=0)[:3000] + 3.0 * np.sign(TORQUE)
