@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Indices, JointSeries, Samples
+from ..arrays import FrictionShares, Indices, JointSeries, Samples
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,6 +19,10 @@ class MotionState:
     """The instants, s, on the log's own clock; None where only the configuration matters."""
     temperature: JointSeries | None = None
     """Temperature of every joint, degC; None where none was logged."""
+    friction_share: FrictionShares | None = None
+    """Dry friction as a share of its level, from -1 to 1: of the joints first, then of declared couplings.
+    A simulation knows it also where friction holds, and it stands in the place of the velocity's sign; None
+    where only the velocity is known."""
 
     def at(self, rows: slice | Indices) -> "MotionState":
         """Take some rows of the motion."""

@@ -28,7 +28,7 @@ def _read_block(block, table, begin, count) -> None:
 
 
 @njit(inline="always")
-def _add_drives(out, mass, velocity, inertia, damping, begin, count) -> None:
+def add_drives(out, mass, velocity, inertia, damping, begin, count) -> None:
     """Add rotors to the mass matrix, and take viscous friction from the torque."""
     joints = len(inertia)
     for i in range(joints):
@@ -42,7 +42,7 @@ def _add_drives(out, mass, velocity, inertia, damping, begin, count) -> None:
 
 
 @njit(inline="always")
-def _add_implicit(mass, implicit, damping, begin, count) -> None:
+def add_implicit(mass, implicit, damping, begin, count) -> None:
     """Add to the mass matrix what the damping becomes within the implicit time."""
     joints = len(damping)
     for i in range(joints):
@@ -91,14 +91,14 @@ def _accelerate(  # pragma: no cover  (compiled)
         count = np.uintp(many)
         _read_block(out, torque, start, count)
         _read_block(mass, matrices, start, count)
-        _add_drives(out, mass, velocity, inertia, damping, start, count)
+        add_drives(out, mass, velocity, inertia, damping, start, count)
         for i in range(joints):
             for s in range(count):
                 out[np.uintp(i), s] -= biases[np.uintp(i), start + s]
         _slide(out, weights, direction, level, start, count)
         if len(known):
             less_mass_times(out, mass, known, joints, start, count)
-        _add_implicit(mass, implicit, damping, start, count)
+        add_implicit(mass, implicit, damping, start, count)
         factorise(mass, scale, joints, count)
         substitute(out, mass, scale, joints, count)
         hold_block(out, mass, scale, weights, direction, level, held, begin, many)

@@ -20,7 +20,7 @@ CLOSE = 1e-13
 
 
 @njit(inline="always")
-def _settle(coupled, push, level, held) -> None:
+def settle(coupled, push, level, held) -> None:
     """Find friction torques within their levels that leave as little of the push as they can."""
     for _ in range(SWEEPS):
         change = 0.0
@@ -36,8 +36,22 @@ def _settle(coupled, push, level, held) -> None:
 
 
 @njit(inline="always")
-def _stop(rate, s, weights, resting, held, level) -> None:
-    """Take from joints that are held what rounding left of their acceleration."""
+def couple(answer, coupled, factor, scale, s, weights, chosen) -> None:
+    """Write the joints' answer to each of the chosen frictions, and the frictions' to each other."""
+    for e in range(len(chosen)):
+        for j in range(weights.shape[1]):
+            answer[e, j] = weights[chosen[e], j]
+        solve_one(answer[e], factor, scale, s, weights.shape[1])
+        for f in range(e + 1):
+            coupled[e, f] = 0.0
+            for j in range(weights.shape[1]):
+                coupled[e, f] += answer[e, j] * weights[chosen[f], j]
+            coupled[f, e] = coupled[e, f]
+
+
+@njit(inline="always")
+def stop(rate, s, weights, resting, held, level) -> None:
+    """Take from joints that are held what rounding left of their acceleration or speed."""
     for e in range(len(resting)):
         count, only = 0, 0
         for j in range(weights.shape[1]):
@@ -71,24 +85,17 @@ def _hold(rate, factor, scale, s, weights, direction, level, held, at) -> None:
     coupled = np.empty((len(resting), len(resting)))
     push, limit = np.empty(len(resting)), np.empty(len(resting))
     found = np.zeros(len(resting))
+    couple(answer, coupled, factor, scale, s, weights, resting)
     for e in range(len(resting)):
-        for j in range(joints):
-            answer[e, j] = weights[resting[e], j]
-        solve_one(answer[e], factor, scale, s, joints)
         push[e], limit[e] = 0.0, level[resting[e], at]
         for j in range(joints):
             push[e] += weights[resting[e], j] * rate[j, s]
-        for f in range(e + 1):
-            coupled[e, f] = 0.0
-            for j in range(joints):
-                coupled[e, f] += answer[e, j] * weights[resting[f], j]
-            coupled[f, e] = coupled[e, f]
-    _settle(coupled, push, limit, found)
+    settle(coupled, push, limit, found)
     for e in range(len(resting)):
         held[resting[e], at] = found[e]
         for j in range(joints):
             rate[j, s] -= found[e] * answer[e, j]
-    _stop(rate, s, weights, resting, found, limit)
+    stop(rate, s, weights, resting, found, limit)
 
 
 @njit(inline="always")

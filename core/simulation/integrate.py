@@ -188,12 +188,16 @@ def _check(states: States) -> None:
     if speed.max(initial=0.0) <= FASTEST:  # nan is not
         return
     joint, lane = (int(number) for number in np.argwhere(~(speed <= FASTEST))[0])
-    singular = np.isnan(speed[joint, lane])
-    raise SolverError(
+    raise failure(joint, float(speed[joint, lane]), float(states.time[lane]))
+
+
+def failure(joint: int, speed: float, time: float) -> SolverError:
+    """Say that a joint (from 0) cannot be simulated further: its speed is nan, or beyond any robot's."""
+    return SolverError(
         "the simulated robot cannot be accelerated: its mass matrix is not positive definite"
-        if singular
+        if np.isnan(speed)
         else "the simulated motion diverges",
-        evidence={"time": float(states.time[lane]), "joint": joint + 1, "speed": float(speed[joint, lane])},
+        evidence={"time": time, "joint": joint + 1, "speed": speed},
         remedy="simulate parameters that the semidefinite programme has estimated, and check that the"
         " measured torque belongs to the measured motion",
     )

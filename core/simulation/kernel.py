@@ -20,7 +20,7 @@ BLOCK = 64
 
 
 @njit(inline="always")
-def _place_link(
+def place_link(
     frame, parent, own, moved, position, joint, begin, count, scale, offset, slides, fixed, shift
 ) -> None:
     """Write the link's frame in the base's: nine rows of rotation, three of position."""
@@ -54,7 +54,7 @@ def _place_link(
 
 
 @njit(inline="always")
-def _place_axis(axis, frame, own, turns, slides, count) -> None:
+def place_axis(axis, frame, own, turns, slides, count) -> None:
     """Write what a unit of joint speed gives: spin, and speed of the point at the base's origin."""
     for s in range(count):
         z0, z1, z2 = frame[own, 2, s], frame[own, 5, s], frame[own, 8, s]
@@ -66,7 +66,7 @@ def _place_axis(axis, frame, own, turns, slides, count) -> None:
 
 
 @njit(inline="always")
-def _move_link(motion, parent, own, moved, axis, velocity, acceleration, joint, begin, count) -> None:
+def move_link(motion, parent, own, moved, axis, velocity, acceleration, joint, begin, count) -> None:
     """Carry spin, origin's speed, and the rates of both less gravity (three rows each) one link outwards."""
     for s in range(count):
         v, a = velocity[joint, begin + s], acceleration[joint, begin + s]
@@ -86,7 +86,7 @@ def _move_link(motion, parent, own, moved, axis, velocity, acceleration, joint, 
 
 
 @njit(inline="always")
-def _place_body(body, frame, own, bodies, count) -> None:
+def place_body(body, frame, own, bodies, count) -> None:
     """Write a body's inertia about the base's origin (XX XY XZ YY YZ ZZ) and its first moments."""
     xx, xy, xz, yy, yz, zz = bodies[0], bodies[1], bodies[2], bodies[3], bodies[4], bodies[5]
     mx, my, mz, m = bodies[6], bodies[7], bodies[8], bodies[9]
@@ -128,7 +128,7 @@ def _place_body(body, frame, own, bodies, count) -> None:
 
 
 @njit(inline="always")
-def _load_link(wrench, motion, body, own, mass, count) -> None:
+def load_link(wrench, motion, body, own, mass, count) -> None:
     """Write the moment and the force that a body's motion asks for: I A + V x* (I V)."""
     for s in range(count):
         xx, xy, xz = body[own, 0, s], body[own, 1, s], body[own, 2, s]
@@ -159,7 +159,7 @@ def _load_link(wrench, motion, body, own, mass, count) -> None:
 
 
 @njit(inline="always")
-def _gather(table, parent, own, rows, count) -> None:
+def gather(table, parent, own, rows, count) -> None:
     """Add a link's rows to its antecedent's."""
     for row in range(rows):
         for s in range(count):
@@ -211,24 +211,24 @@ OPTIONS = {
 
 
 @njit(inline="always")
-def _scratch(links, gravity) -> tuple[np.ndarray, ...]:
+def scratch_of(links, gravity, block) -> tuple[np.ndarray, ...]:
     """Give the tables that a block of states needs: frames, axes, motions, bodies, wrenches, moved rows."""
-    frame, motion = np.zeros((links + 1, 12, BLOCK)), np.zeros((links + 1, 12, BLOCK))
+    frame, motion = np.zeros((links + 1, 12, block)), np.zeros((links + 1, 12, block))
     frame[0, 0], frame[0, 4], frame[0, 8] = 1.0, 1.0, 1.0
     for k in range(3):
         motion[0, 9 + k] = -gravity[k]
     return (
         frame,
-        np.zeros((links + 1, 6, BLOCK)),
+        np.zeros((links + 1, 6, block)),
         motion,
-        np.zeros((links + 1, 9, BLOCK)),
-        np.zeros((links + 1, 6, BLOCK)),
-        np.zeros((12, BLOCK)),
+        np.zeros((links + 1, 9, block)),
+        np.zeros((links + 1, 6, block)),
+        np.zeros((12, block)),
     )
 
 
 @njit(inline="always")
-def _torque_of_block(joint, axis, wrench, torque, begin, count) -> None:
+def torque_of_block(joint, axis, wrench, torque, begin, count) -> None:
     """Add the joints' torques of a block that has been moved."""
     for j in range(len(joint)):
         own = np.uintp(j + 1)
@@ -236,7 +236,7 @@ def _torque_of_block(joint, axis, wrench, torque, begin, count) -> None:
 
 
 @njit(inline="always")
-def _mass_of_block(antecedent, joint, masses, axis, body, pushed, mass, joints, begin, count) -> None:
+def mass_of_block(antecedent, joint, masses, axis, body, pushed, mass, joints, begin, count) -> None:
     """Add the lower triangle of the mass matrix of a block that has been moved, row i * joints + j."""
     for j in range(len(joint)):
         _momentum(pushed, body, axis, np.uintp(j + 1), masses[j], count)
@@ -261,26 +261,26 @@ def move_masses(  # pragma: no cover  (compiled)
     """
     prismatic, antecedent, joint, ratio, offset, rotation, translation, gravity, bodies, masses = robot
     joints, states = position.shape
-    frame, axis, motion, body, wrench, moved = _scratch(len(antecedent), gravity)
+    frame, axis, motion, body, wrench, moved = scratch_of(len(antecedent), gravity, BLOCK)
     for begin in range(0, states, BLOCK):
         start, count = np.uintp(begin), np.uintp(min(BLOCK, states - begin))
         for j in range(len(antecedent)):
             own, parent, drive = np.uintp(j + 1), np.uintp(antecedent[j]), np.uintp(joint[j])
             scale, zero, slides = ratio[j], offset[j], 1.0 if prismatic[j] else 0.0
             fixed, shift = rotation[j], translation[j]
-            _place_link(
+            place_link(
                 frame, parent, own, moved, position, drive, start, count, scale, zero, slides, fixed, shift
             )
-            _place_axis(axis, frame, own, scale * (1.0 - slides), scale * slides, count)
-            _move_link(motion, parent, own, moved, axis, velocity, acceleration, drive, start, count)
-            _place_body(body, frame, own, bodies[j], count)
-            _load_link(wrench, motion, body, own, bodies[j, 9], count)
+            place_axis(axis, frame, own, scale * (1.0 - slides), scale * slides, count)
+            move_link(motion, parent, own, moved, axis, velocity, acceleration, drive, start, count)
+            place_body(body, frame, own, bodies[j], count)
+            load_link(wrench, motion, body, own, bodies[j, 9], count)
         for j in range(len(antecedent) - 1, -1, -1):
             if antecedent[j] > 0:
                 own, parent = np.uintp(j + 1), np.uintp(antecedent[j])
-                _gather(wrench, parent, own, np.uintp(6), count)
-                _gather(body, parent, own, np.uintp(9), count)
+                gather(wrench, parent, own, np.uintp(6), count)
+                gather(body, parent, own, np.uintp(9), count)
         if len(torque):
-            _torque_of_block(joint, axis, wrench, torque, start, count)
+            torque_of_block(joint, axis, wrench, torque, start, count)
         if len(mass):
-            _mass_of_block(antecedent, joint, masses, axis, body, moved, mass, joints, start, count)
+            mass_of_block(antecedent, joint, masses, axis, body, moved, mass, joints, start, count)

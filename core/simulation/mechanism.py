@@ -66,6 +66,8 @@ class Mechanism:
     weights: np.ndarray
     levels: np.ndarray
     """One row per friction that can hold: the speed it acts on is `weights @ velocity`, its level in N m."""
+    frictions: np.ndarray
+    """Their numbers among all frictions: the joints' own first, then those of couplings."""
     others: Share
     """All other terms of the state."""
     with_memory: Share
@@ -148,6 +150,7 @@ def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:
         offset=drives[Offset],
         weights=weights[kept],
         levels=levels[kept],
+        frictions=np.flatnonzero(kept),
         others=share_of(model.robot, of_state),
         with_memory=share_of(model.robot, with_memory),
         channel=share_of(model.robot, channel),

@@ -2,7 +2,8 @@
 
 The sign is wrong within the velocity's error of zero, where a measured velocity changes sign too early or too
 late. A smoothed sign tanh(v / width) spreads the step over a width that the caller chooses per joint from
-data that is not held out. Source: the seed paper, eq. (4).
+data that is not held out. Where a simulation says which share of its level friction takes, also at rest, that
+share is the column. Source: the seed paper, eq. (4).
 """
 
 from dataclasses import dataclass
@@ -26,7 +27,9 @@ class Coulomb(EachJointTerm):
     symbol = ("FC", "N m", 0.0)
 
     def column(self, joint: int, state: MotionState) -> Samples:
-        """Give the sign of the joint's velocity."""
+        """Give the sign of the joint's velocity, or the share of its level where that is known."""
+        if state.friction_share is not None:
+            return np.asarray(state.friction_share[:, joint])
         return direction(state.velocity[:, joint], self.widths[joint] if self.widths else 0.0)
 
 

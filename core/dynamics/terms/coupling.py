@@ -45,9 +45,13 @@ class GearCoupling(Term):
         """Give the torque per unit parameter."""
         rows: list[Samples] = []
         widths = self.widths or (0.0,) * len(robot.couplings)
-        for coupling, width in zip(robot.couplings, widths, strict=True):
+        for index, (coupling, width) in enumerate(zip(robot.couplings, widths, strict=True)):
             motor = motor_speed(coupling, state)
-            columns = (_weighted_sum(coupling, state.acceleration), motor, direction(motor, width))
+            if state.friction_share is None:
+                dry = direction(motor, width)
+            else:
+                dry = state.friction_share[:, len(robot.joints) + index]
+            columns = (_weighted_sum(coupling, state.acceleration), motor, dry)
             rows += [weight * column for weight in coupling.weights for column in columns]
         return np.array(rows).reshape(len(rows), len(state.position))
 

@@ -34,7 +34,8 @@ class MissingCoupling(Term):
 
     def series(self, robot: RobotModel, state: MotionState) -> Series:
         """Give the torque per unit parameter."""
-        return GearCoupling().series(self._declared(robot), state)
+        # a friction share belongs to declared couplings, of which this is none
+        return GearCoupling().series(self._declared(robot), replace(state, friction_share=None))
 
     def _declared(self, robot: RobotModel) -> RobotModel:
         return replace(robot, couplings=(self.coupling,))
