@@ -8,7 +8,6 @@ Source: Welch, IEEE Trans. Audio Electroacoust. 15(2), 1967.
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +15,7 @@ import pyarrow.parquet as pq
 
 from ...arrays import Mask, Samples, Vector
 from ...errors import ExcitationError
+from ...numerics.marked_runs import marked_runs
 from .layout import TIME, USED, column
 from .reading import LogOfTraces, stretches
 
@@ -115,8 +115,7 @@ def _over(name: str, unit: str, values: Samples, residual: dict[str, Samples], u
 def _runs(time: Samples, used: Mask) -> Iterator[slice]:
     """Give the unbroken runs of rows used."""
     for start, stop in stretches(time):
-        borders = np.flatnonzero(np.diff(used[start:stop].astype(np.int8), prepend=0, append=0)) + start
-        for begin, end in list(pairwise(borders.tolist()))[::2]:
+        for begin, end in (start + marked_runs(used[start:stop])).tolist():
             yield slice(begin, end)
 
 
