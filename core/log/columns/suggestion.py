@@ -37,25 +37,12 @@ MOTOR_SIDE = ("position", "velocity", "torque")
 IMPLAUSIBLE = "implausible_unit"
 
 
-def suggest_mapping(table: Table) -> dict[str, object] | None:
-    """Give a mapping that fits the names of the columns; None where the names are not enough.
-
-    Units are those that names or the file say, else the most plausible by size, or `UNKNOWN` where no unit
-    fits the size; so is the rate of a log without a clock, and what one count or one per cent is.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from veritorque.core.log.formats.table import MemoryTable
-    >>> columns = {"t": 0.004 * np.arange(9.0), "pos1": np.full(9, 90.0), "trq1": np.full(9, 2.5)}
-    >>> suggest_mapping(MemoryTable(columns))["position"]
-    {'columns': ['pos1'], 'unit': 'deg'}
-    """
-    return next(iter(suggest_mappings(table)), None)
-
-
 def suggest_mappings(table: Table, prismatic: Collection[int] = ()) -> list[dict[str, object]]:
     """Give the mapping that fits the names of the columns, or one for each arm that the file holds.
+
+    None is given where the names are not enough. Units are those that names or the file say, else the most
+    plausible by size, or `UNKNOWN` where no unit fits the size; so is the rate of a log without a clock, and
+    what one count or one per cent is.
 
     Parameters
     ----------
@@ -69,6 +56,9 @@ def suggest_mappings(table: Table, prismatic: Collection[int] = ()) -> list[dict
     >>> suggested = suggest_mappings(MemoryTable({"t": 0.004 * np.arange(9.0)} | waves), prismatic=[2])
     >>> suggested[0]["position"]["unit"], suggested[0]["torque"]["unit"]
     (['rad', 'm'], ['N m', 'N'])
+    >>> columns = {"t": 0.004 * np.arange(9.0), "pos1": np.full(9, 90.0), "trq1": np.full(9, 2.5)}
+    >>> suggest_mappings(MemoryTable(columns))[0]["position"]
+    {'columns': ['pos1'], 'unit': 'deg'}
     """
     profile = _profile(table.names)
     if profile is not None:
