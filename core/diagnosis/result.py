@@ -76,7 +76,7 @@ class Gain:
 class Finding:
     """Name one cause with everything that supports it.
 
-    `predictors` is what its confidence was computed from, None of a sample check. `proven` says that an
+    `predictors` is what its confidence was computed from, None of a sample check. `verified` says that an
     identification with it has predicted held-out motion significantly better.
     """
 
@@ -96,7 +96,7 @@ class Finding:
     curve: Curve | None
     member: Candidate | None
     predictors: tuple[float, float, float] | None = None
-    proven: bool = False
+    verified: bool = False
 
 
 @dataclass(frozen=True)

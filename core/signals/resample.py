@@ -1,4 +1,4 @@
-"""Bring stamped samples onto one clock: real stamps are honoured, uniform ones are left exactly as they are.
+"""Bring stamped samples onto one clock: real stamps are used, uniform ones are left exactly as they are.
 
 Between stamps positions follow a cubic spline and torques a straight line: positions are smooth and will be
 differentiated twice, torques carry noise that a spline would amplify. A few rows that repeat the row before

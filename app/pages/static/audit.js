@@ -30,7 +30,7 @@ export function showAudit(container, { job, document }) {
   const { contradicted, corrected_robot: robot, judged } = document;
   const held = document.validation_total_percent ?? document.fit_total_percent;
   const verdict = !judged
-    ? "The log cannot judge the description."
+    ? "The log does not allow a judgement of the description."
     : contradicted.length
       ? `The log contradicts ${plural("entry", contradicted.length).replace("entrys", "entries")} of the description.`
       : "The log contradicts no entry of the description.";
@@ -54,7 +54,7 @@ export const AUDITED = [
 
 function remarksOf({ remarks, bodies_described: described, total_mass: total }) {
   if (!described) return element("p", {}, "The description gives no masses and inertias.");
-  if (!remarks.length) return element("p", {}, `No body that cannot be. The moving links weigh ${number(total.described)} kg together.`);
+  if (!remarks.length) return element("p", {}, `Every body is physically possible. The moving links weigh ${number(total.described)} kg together.`);
   return element("ul", {}, remarks.map(({ statement, remedy }) => element("li", {}, `${statement}. Remedy: ${remedy}.`)));
 }
 

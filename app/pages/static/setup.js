@@ -60,7 +60,7 @@ function showCauses(container, { document }) {
     return;
   }
   fill(container,
-    table("Causes that the log can show, and from which size on they would about be found", ["Cause", "Not on joints", "From", "Quantity"],
+    table("Causes that the log can show, and the approximate size from which they would be found", ["Cause", "Not on joints", "From", "Quantity"],
       document.shown.map((cause) => [cause.title, cause.visible ? cause.not_on_joints.join(", ") || "–" : "all", ...smallest(cause)])),
     element("h3", {}, "Causes that this log does not distinguish"),
     document.not_separable.length

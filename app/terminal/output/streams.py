@@ -68,13 +68,13 @@ def complain(cause: str, evidence: Mapping[str, object], remedy: str) -> None:
 def _console(*, error: bool) -> "Console":
     from rich.console import Console
 
-    class Frank(Console):
-        """Tell of a reader who has read enough, where rich would end the program with 1."""
+    class PipeConsole(Console):
+        """Raise on a closed pipe, where rich would end the program with 1."""
 
         def on_broken_pipe(self) -> NoReturn:
             raise BrokenPipeError
 
-    console = Frank(stderr=error, highlight=False)
+    console = PipeConsole(stderr=error, highlight=False)
     if not console.is_terminal:
         console.width = PIPED_WIDTH
     return console

@@ -99,13 +99,13 @@ def explained(error: LogError, table: Table) -> LogError:
 
 
 def _half(table: Table) -> tuple[str, str] | None:
-    """Tell what a file holds and what it lacks; None where neither or both are told by its names."""
+    """Tell what a file holds and what it lacks; None where its names say neither or both."""
     families = numbered_families(table.names) | single_families(table.names)
-    told = {channel for stem in families if (channel := channel_of(stem, ())) is not None}
+    named = {channel for stem in families if (channel := channel_of(stem, ())) is not None}
     recorded = (fill_in({PROFILE: name}, table.names) for name in PROFILES if _is_ordered(name, table.names))
-    told |= {channel for filled in recorded if isinstance(filled, dict) for channel in filled}
-    efforts = {*EFFORTS, "torque_ref"} & told
-    if bool(efforts) == ("position" in told):
+    named |= {channel for filled in recorded if isinstance(filled, dict) for channel in filled}
+    efforts = {*EFFORTS, "torque_ref"} & named
+    if bool(efforts) == ("position" in named):
         return None
     return ("positions", "torque or current") if not efforts else ("torque or current", "positions")
 
@@ -180,8 +180,8 @@ def _open_units(profile: str, table: Table, prismatic: Collection[int]) -> dict[
 def _clock(channels: Mapping[str, Sequence[str]], table: Table) -> dict[str, object]:
     """Give the clock by its name, else the first column that only grows, else leave the rate open."""
     words = set(CHANNELS[TIME].words)
-    told = (name for name in table.names if name_words(name) & words and channel_of(name, ()) is None)
-    stamps = next(iter(channels.get(TIME, ())), None) or next(told, None) or _growing(channels, table)
+    called = (name for name in table.names if name_words(name) & words and channel_of(name, ()) is None)
+    stamps = next(iter(channels.get(TIME, ())), None) or next(called, None) or _growing(channels, table)
     return (
         {RATE: UNKNOWN} if stamps is None else {TIME: {"column": stamps, "unit": _unit(TIME, table, stamps)}}
     )

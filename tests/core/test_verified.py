@@ -1,4 +1,4 @@
-"""Hold the study to its word on causes whose gain is in doubt: who proves it joins the model."""
+"""A cause whose gain is in doubt joins the model where simulated motion verifies it."""
 
 from dataclasses import replace
 
@@ -37,14 +37,14 @@ def test_a_cause_in_doubt_joins_the_model_where_held_out_motion_is_better_predic
     (one,) = found.diagnosis.findings
     shown = one.evidence[-1]
     (gain,) = (gain for gain in found.gains if gain.joint == 2)
-    assert one.proven
+    assert one.verified
     assert one.confidence == diagnosed(hidden).findings[0].confidence
     assert "joint 2" in shown.statement
     np.testing.assert_allclose(shown.value, gain.improvement_percent, rtol=0.05)
     assert gain.interval_95[0] > 0.0
 
 
-def test_what_proved_itself_is_not_identified_once_more(monkeypatch):
+def test_what_was_verified_is_not_identified_once_more(monkeypatch):
     fits = []
 
     def fitted(*asked):
@@ -71,7 +71,7 @@ def test_verifying_is_reported_between_the_search_and_the_correction(monkeypatch
 def test_a_cause_in_doubt_joins_no_model_where_it_gains_nothing(monkeypatch):
     found = studied(monkeypatch, HARMLESS)
     assert found.after is None
-    assert not found.diagnosis.findings[0].proven
+    assert not found.diagnosis.findings[0].verified
     mine, before = found.diagnosis.findings[0], diagnosed(hidden).findings[0]
     assert mine.confidence == CONFIDENCE.doubtful < before.confidence
     assert len(mine.evidence) == len(before.evidence)
@@ -89,4 +89,4 @@ def test_a_cause_in_doubt_with_which_there_is_no_answer_joins_no_model(monkeypat
     monkeypatch.setattr(extend, "fit", unsolved)
     found = studied(monkeypatch, HIDDEN)
     assert found.after is None
-    assert not found.diagnosis.findings[0].proven
+    assert not found.diagnosis.findings[0].verified
