@@ -15,6 +15,9 @@ from ..dynamics.model import DynamicModel
 from ..dynamics.term import Term
 from ..reduction.base import BaseModel
 
+_WIDE = 10.0
+"""Width of the prior on a parameter that enters, over its value: so wide that the log decides."""
+
 
 def corrections(diagnosis: Diagnosis) -> tuple[Term, ...]:
     """Give the terms of the findings whose gain on held-out rows is significant or verified."""
@@ -35,7 +38,7 @@ def enters(finding: Finding) -> bool:
 def sizes(diagnosis: Diagnosis) -> dict[str, float]:
     """Give, by name, what counts as one unit of deviation of the parameters that enter the model."""
     return {
-        f"{quantity.name}{quantity.joint}": 10.0 * abs(quantity.value)
+        f"{quantity.name}{quantity.joint}": _WIDE * abs(quantity.value)
         for finding in diagnosis.findings
         for quantity in finding.quantities
     }

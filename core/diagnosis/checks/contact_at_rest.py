@@ -61,7 +61,7 @@ def contacts_at_rest(dataset: Dataset, operating_point: Prediction) -> tuple[Sam
     scale, jacobian = _scale(dataset, operating_point), contact_jacobian(dataset.robot, link, dataset.state)
     pushes = []
     for rows in _stands(dataset):
-        edge = max(AT_REST.edge_rows, len(rows) // 10)
+        edge = max(AT_REST.edge_rows, int(AT_REST.edge_share * len(rows)))
         torque = dataset.torque[rows]
         ends = np.array([np.median(part, axis=0) for part in (torque[:edge], torque[-edge:])])
         change = torque - ends.mean(axis=0)
