@@ -1,5 +1,5 @@
 // Draw a robot as a stick figure that can be turned and posed: links as rods, joints as barrels or slides, bodies as ellipsoids.
-import { element, fill, svg } from "./dom.js";
+import { element, fill, svg } from "../base/dom.js";
 import {
   add,
   apply,
@@ -13,7 +13,7 @@ import {
   turnZ,
 } from "./kinematics.js";
 import { barrel, ellipsoid, floor, label, rods, triad } from "./shapes.js";
-import { number, plural } from "./words.js";
+import { number, plural } from "../base/words.js";
 
 const HALF = 100; // the drawing reaches from -HALF to HALF
 const STEP = Math.PI / 24;

@@ -1,7 +1,7 @@
 // Draw traces over one axis with uPlot, in a figure with keyboard control, a text alternative and CSV export.
-import { element, fill } from "./dom.js";
-import uPlot from "./uPlot.esm.js";
-import { number } from "./words.js";
+import { element, fill } from "../base/dom.js";
+import uPlot from "../uPlot.esm.js";
+import { number } from "../base/words.js";
 
 export const MOST_POINTS = 4000;
 const COLOURS = 7;

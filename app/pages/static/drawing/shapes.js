@@ -1,6 +1,6 @@
 // The shapes that a robot's figure is made of. Each gives a node and its depth, by which nearer ones are drawn later.
 // `flat` leads from the base frame to the drawing: x and y in its units, and the depth in m.
-import { svg } from "./dom.js";
+import { svg } from "../base/dom.js";
 import { add, apply, column, multiply, times } from "./kinematics.js";
 
 function pathOf(points) {

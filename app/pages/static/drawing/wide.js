@@ -1,5 +1,5 @@
 // Let wide content scroll by itself, and let it be reached by keys to do so.
-import { element } from "./dom.js";
+import { element } from "../base/dom.js";
 
 /** Put something wide into a region of its own that scrolls. */
 export function wide(content, label) {

@@ -1,6 +1,6 @@
 // List the files of a result and the shell commands that reproduce it.
-import { follow } from "./api.js";
-import { element, fill } from "./dom.js";
+import { follow } from "../base/api.js";
+import { element, fill } from "../base/dom.js";
 
 const FILES = [
   ["report", "Report: one HTML file that opens offline and prints"],

@@ -1,8 +1,8 @@
 // The list of studies, newest first: kind, robot, logs, state, duration and links.
-import { follow, get } from "./api.js";
-import { element, fill } from "./dom.js";
-import { showError } from "./problem.js";
-import { KINDS, ago, duration, percent, plain, short } from "./words.js";
+import { follow, get } from "../base/api.js";
+import { element, fill } from "../base/dom.js";
+import { showError } from "../base/problem.js";
+import { KINDS, ago, duration, percent, plain, short } from "../base/words.js";
 
 const AT_A_TIME = 10;
 const AGAIN_MS = 2000;

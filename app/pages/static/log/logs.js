@@ -1,12 +1,12 @@
 // Choose logs: upload files or take uploaded ones, and show rate, columns, defects and channels of each.
-import { get, ProblemError, upload } from "./api.js";
+import { get, ProblemError, upload } from "../base/api.js";
 import { showChannels } from "./channels.js";
 import { columnsOf } from "./columns.js";
-import { dropZone, field, menu } from "./controls.js";
-import { element, fill } from "./dom.js";
+import { dropZone, field, menu } from "../base/controls.js";
+import { element, fill } from "../base/dom.js";
 import { mappingForm } from "./mapping.js";
-import { showError } from "./problem.js";
-import { bytes, count, duration, number, percent, plain, plural } from "./words.js";
+import { showError } from "../base/problem.js";
+import { bytes, count, duration, number, percent, plain, plural } from "../base/words.js";
 
 const ACCEPT = ".csv,.tsv,.txt,.dat,.parquet,.pq,.npz,.mat,.h5,.hdf5,.mcap,.db3,.bag";
 const LISTED = 50;

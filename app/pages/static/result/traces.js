@@ -1,5 +1,5 @@
 // Ask for what a job computed instant by instant: joint by joint, once each, and finer on zooming in.
-import { get } from "./api.js";
+import { get } from "../base/api.js";
 
 const POINTS = 1200;
 const RAW_POINTS = 3000;

@@ -1,15 +1,15 @@
 // Show the result of a successful job: conflicts and headline first, then one section for each topic.
-import { get, request } from "./api.js";
+import { get, request } from "../base/api.js";
 import { AUDITED, showAudit } from "./audit.js";
 import { showBodies } from "./bodies.js";
 import { showConflicts } from "./conflicts.js";
-import { element, fill } from "./dom.js";
+import { element, fill } from "../base/dom.js";
 import { showExcitation } from "./excitation.js";
 import { showFindings, showRemainder } from "./findings.js";
 import { showHeadline } from "./headline.js";
 import { showParameters } from "./parameters.js";
 import { CHECKED, showAgreement } from "./setup.js";
-import { showError } from "./problem.js";
+import { showError } from "../base/problem.js";
 import { showResiduals } from "./residuals.js";
 import { showExport } from "./export.js";
 import { showMotion, showTorque } from "./torque.js";

@@ -1,8 +1,8 @@
 // The table of base parameters with error bars, %P and grouping; it can be sorted, filtered, copied and saved.
-import { follow } from "./api.js";
-import { element, fill, svg } from "./dom.js";
-import { wide } from "./wide.js";
-import { number, relative } from "./words.js";
+import { follow } from "../base/api.js";
+import { element, fill, svg } from "../base/dom.js";
+import { wide } from "../drawing/wide.js";
+import { number, relative } from "../base/words.js";
 
 const POOR_PERCENT = 30;
 const COLUMNS = [

@@ -1,8 +1,8 @@
 // Physical consistency: bodies drawn on the chain, eigenvalues of the pseudo-inertias, and active constraints.
-import { drawChain } from "./chain.js";
-import { element, fill } from "./dom.js";
-import { wide } from "./wide.js";
-import { consistency, number, plural, relative } from "./words.js";
+import { drawChain } from "../drawing/chain.js";
+import { element, fill } from "../base/dom.js";
+import { wide } from "../drawing/wide.js";
+import { consistency, number, plural, relative } from "../base/words.js";
 
 /** Show the bodies. */
 export function showBodies(container, { document }) {

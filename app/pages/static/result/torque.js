@@ -1,8 +1,8 @@
 // Measured, filtered and estimated torque of every joint, and the motion they belong to, drawn again finer when zoomed.
-import { element, fill } from "./dom.js";
-import { draw } from "./plot.js";
-import { refining } from "./refine.js";
-import { relative } from "./words.js";
+import { element, fill } from "../base/dom.js";
+import { draw } from "../drawing/plot.js";
+import { refining } from "../drawing/refine.js";
+import { relative } from "../base/words.js";
 
 /** Show torque, joint by joint. */
 export async function showTorque(container, study) {

@@ -1,7 +1,7 @@
 // Show the headline of a result and its key figures.
-import { follow } from "./api.js";
-import { element, fill } from "./dom.js";
-import { consistency, plural, relative } from "./words.js";
+import { follow } from "../base/api.js";
+import { element, fill } from "../base/dom.js";
+import { consistency, plural, relative } from "../base/words.js";
 
 /** Show the verdict and the key figures. */
 export function showHeadline(container, { job, document, report }) {

@@ -1,13 +1,13 @@
 // Choose a robot: one that is known, one described by its table, or one from a URDF. Whatever is chosen is drawn.
-import { get, post, request } from "./api.js";
-import { auditOf } from "./audit.js";
-import { drawChain } from "./chain.js";
-import { dropZone, field, menu, readNumber, segments } from "./controls.js";
+import { get, post, request } from "../base/api.js";
+import { auditOf } from "../result/audit.js";
+import { drawChain } from "../drawing/chain.js";
+import { dropZone, field, menu, readNumber, segments } from "../base/controls.js";
 import { couplingForm, couplingWords } from "./couplings.js";
-import { element, fill } from "./dom.js";
-import { showError } from "./problem.js";
+import { element, fill } from "../base/dom.js";
+import { showError } from "../base/problem.js";
 import { robotTable } from "./table.js";
-import { ago, number, plural, short } from "./words.js";
+import { ago, number, plural, short } from "../base/words.js";
 
 const WAYS = { list: "From the list", table: "DH table", urdf: "URDF" };
 

@@ -1,9 +1,9 @@
 // The form for a modified Denavit-Hartenberg table: one row per joint, in the units of the data sheet, drawn while it is typed.
-import { get } from "./api.js";
-import { field, freshId, menu, readNumber, segments } from "./controls.js";
+import { get } from "../base/api.js";
+import { field, freshId, menu, readNumber, segments } from "../base/controls.js";
 import { couplingForm } from "./couplings.js";
-import { element, fill } from "./dom.js";
-import { showError } from "./problem.js";
+import { element, fill } from "../base/dom.js";
+import { showError } from "../base/problem.js";
 import { COLUMNS, EMPTY, factorOf, faultOf, jointOf, pointerOf, rowsOf, unitOf, without } from "./rows.js";
 
 /**

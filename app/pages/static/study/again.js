@@ -1,7 +1,7 @@
 // Start a job again with a correction: logs are read anew by another mapping, the robot is copied with other fields.
-import { get, post } from "./api.js";
-import { element, fill } from "./dom.js";
-import { showError } from "./problem.js";
+import { get, post } from "../base/api.js";
+import { element, fill } from "../base/dom.js";
+import { showError } from "../base/problem.js";
 
 /**
  * Offer to apply a correction, and to copy it.

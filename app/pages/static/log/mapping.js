@@ -1,8 +1,8 @@
 // The form that maps columns to channels, joints and units. It fills in channels by names, and never a unit; the mapping
 // that the service suggests stands above it, with units, and is applied by a click only.
 import { CHANNELS, likelyRoles, knownUnits, oneCount, unitChoices } from "./columns.js";
-import { field, figure, menu, readNumber } from "./controls.js";
-import { element, fill } from "./dom.js";
+import { field, figure, menu, readNumber } from "../base/controls.js";
+import { element, fill } from "../base/dom.js";
 
 const EACH = "each";
 const NEEDS_SCALE = new Set(["counts", "%"]);

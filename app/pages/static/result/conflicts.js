@@ -1,7 +1,7 @@
 // Show what robot and logs disagree in, and correct it: the logs are read anew, the description is edited, the job is started again.
-import { correctionActions } from "./again.js";
-import { element, fill } from "./dom.js";
-import { number, percent, plain } from "./words.js";
+import { correctionActions } from "../study/again.js";
+import { element, fill } from "../base/dom.js";
+import { number, percent, plain } from "../base/words.js";
 
 /** Show a card for every correction, with the conflicts that it removes; nothing where robot and logs agree. */
 export function showConflicts(container, { job, document }) {

@@ -1,8 +1,8 @@
 // Show a set-up check: whether robot and logs belong together, and which parameters and causes the logs can show.
-import { element, fill } from "./dom.js";
+import { element, fill } from "../base/dom.js";
 import { warnings } from "./headline.js";
-import { number, plain, plural, relative } from "./words.js";
-import { scrolling } from "./wide.js";
+import { number, plain, plural, relative } from "../base/words.js";
+import { scrolling } from "../drawing/wide.js";
 
 const AGREEMENT = {
   yes: ["Robot and log belong together.", "good"],

@@ -1,7 +1,7 @@
 // The form for coupled motors: each turns with a weighted sum of joints, as motor 6 of a Staubli TX40 with q5 + q6.
-import { field, readNumber } from "./controls.js";
-import { element, fill } from "./dom.js";
-import { plural } from "./words.js";
+import { field, readNumber } from "../base/controls.js";
+import { element, fill } from "../base/dom.js";
+import { plural } from "../base/words.js";
 
 /**
  * Make the form.

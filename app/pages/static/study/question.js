@@ -1,9 +1,9 @@
 // Choose the analysis and its main options, and start it.
-import { get, post } from "./api.js";
-import { field, menu, readNumber } from "./controls.js";
-import { element, fill } from "./dom.js";
-import { showError } from "./problem.js";
-import { ANALYSES, ago, plural } from "./words.js";
+import { get, post } from "../base/api.js";
+import { field, menu, readNumber } from "../base/controls.js";
+import { element, fill } from "../base/dom.js";
+import { showError } from "../base/problem.js";
+import { ANALYSES, ago, plural } from "../base/words.js";
 
 const { kinds: KINDS, estimators: ESTIMATORS } = ANALYSES;
 

@@ -1,10 +1,10 @@
 // Plot every channel and joint of a log, with defects marked and one shared cursor.
-import { get } from "./api.js";
-import { element, fill } from "./dom.js";
-import { draw } from "./plot.js";
-import { showError } from "./problem.js";
-import { refining } from "./refine.js";
-import { unitOf } from "./words.js";
+import { get } from "../base/api.js";
+import { element, fill } from "../base/dom.js";
+import { draw } from "../drawing/plot.js";
+import { showError } from "../base/problem.js";
+import { refining } from "../drawing/refine.js";
+import { unitOf } from "../base/words.js";
 
 const POINTS = 1000;
 const AT_ONCE = ["position", "torque", "current"];

@@ -1,9 +1,9 @@
 // Show the findings of a diagnosis: sentences, figures and tables copied from the report.
-import { correctionActions } from "./again.js";
-import { element, fill } from "./dom.js";
+import { correctionActions } from "../study/again.js";
+import { element, fill } from "../base/dom.js";
 import { copied } from "./headline.js";
-import { scrolling } from "./wide.js";
-import { number } from "./words.js";
+import { scrolling } from "../drawing/wide.js";
+import { number } from "../base/words.js";
 
 /** Show the findings, each with its size, figure, improvement and alternatives; then the errors per joint. */
 export function showFindings(container, { job, document, report }) {

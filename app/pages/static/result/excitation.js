@@ -1,8 +1,8 @@
 // Show the excitation: condition numbers, range of the motion, and poorly determined parameters with the reason.
-import { element, fill } from "./dom.js";
+import { element, fill } from "../base/dom.js";
 import { joints } from "./torque.js";
-import { wide } from "./wide.js";
-import { number, relative } from "./words.js";
+import { wide } from "../drawing/wide.js";
+import { number, relative } from "../base/words.js";
 
 const POOR_PERCENT = 30;
 const ALIKE = 0.1;

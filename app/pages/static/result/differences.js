@@ -1,10 +1,10 @@
 // The differences of two results, the largest first.
-import { element, fill, svg } from "./dom.js";
-import { draw } from "./plot.js";
-import { showError } from "./problem.js";
+import { element, fill, svg } from "../base/dom.js";
+import { draw } from "../drawing/plot.js";
+import { showError } from "../base/problem.js";
 import { tracesOf } from "./traces.js";
-import { wide } from "./wide.js";
-import { number, plain, plural, relative } from "./words.js";
+import { wide } from "../drawing/wide.js";
+import { number, plain, plural, relative } from "../base/words.js";
 
 const REAL = 3;
 const WIDEST = 10;

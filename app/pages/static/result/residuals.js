@@ -1,9 +1,9 @@
 // Plot the residual over time, over coordinates and over frequency.
-import { get } from "./api.js";
-import { element, fill } from "./dom.js";
-import { draw } from "./plot.js";
-import { refining } from "./refine.js";
-import { plain } from "./words.js";
+import { get } from "../base/api.js";
+import { element, fill } from "../base/dom.js";
+import { draw } from "../drawing/plot.js";
+import { refining } from "../drawing/refine.js";
+import { plain } from "../base/words.js";
 import { forEveryLog, joints } from "./torque.js";
 
 /** Show the residual of one joint at a time, four ways. */

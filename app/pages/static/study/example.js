@@ -1,5 +1,5 @@
 // Take the way that a user's own log takes, with the log that ships with the service.
-import { ProblemError, post, upload } from "./api.js";
+import { ProblemError, post, upload } from "../base/api.js";
 
 const ROBOT = "yumi-left";
 const LOGS = {

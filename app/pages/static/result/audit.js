@@ -1,11 +1,11 @@
 // Show an audit of a description: which bodies are impossible, and which entries logs contradict.
-import { correctionActions } from "./again.js";
-import { post } from "./api.js";
-import { element, fill } from "./dom.js";
+import { correctionActions } from "../study/again.js";
+import { post } from "../base/api.js";
+import { element, fill } from "../base/dom.js";
 import { warnings } from "./headline.js";
-import { showError } from "./problem.js";
-import { number, plural, relative } from "./words.js";
-import { scrolling } from "./wide.js";
+import { showError } from "../base/problem.js";
+import { number, plural, relative } from "../base/words.js";
+import { scrolling } from "../drawing/wide.js";
 
 /** Offer to audit the bodies of a robot without a log. */
 export function auditOf(robot) {
