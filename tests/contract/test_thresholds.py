@@ -77,7 +77,6 @@ NAMED = {
         "diagnosis/checks/figure": "BINS EXPLAINED",
         "diagnosis/residual/atlas": "BINS FEWEST_IN_BIN _RIDGE",
         "diagnosis/residual/learner": "_PLACES",
-        "diagnosis/residual/spectrum": "LONGEST SHORTEST",
     },
 }
 """Constants of modules that decide nothing, by the reason why.
