@@ -11,11 +11,11 @@ if TYPE_CHECKING:
 MOST_PARTS = 4
 """Named parts of what was seen that are written out; documents hold all."""
 PIPED_WIDTH = 200
-"""Columns where nobody watches: lines are not folded, so that a table keeps one row a line."""
+"""Columns where the output is no terminal: lines are not folded, so that a table keeps one row a line."""
 
 
-def speak_any_alphabet() -> None:
-    """Write what the terminal's alphabet lacks as escapes, so that no name of a file stops a command."""
+def escape_unknown_characters() -> None:
+    """Write characters that the encoding lacks as escapes, so that no name of a file stops a command."""
     if isinstance(sys.stdout, TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
 
