@@ -15,7 +15,7 @@ from pydantic_settings import BaseSettings, SettingsConfigDict
 
 PREFIX = "VERITORQUE_"
 LOCAL = "local"
-"""The tenant of whoever needs no key."""
+"""The tenant of requests that need no key."""
 SCOPES = ("read", "write", "admin")
 """What keys may permit."""
 Kept = Literal["successful", "failed", "dismissed", "logs", "repeats"]
@@ -59,7 +59,7 @@ class Settings(BaseSettings):
     """What the service's own log holds; with ``debug`` also every read."""
 
     retention_days: dict[Kept, Annotated[float, Field(gt=0.0)]] = {"repeats": 7.0}
-    """How long each of `Kept` is kept, d; what is not named is kept for ever."""
+    """How long each of `Kept` is kept, d; what is not named is kept without limit."""
 
     @cached_property
     def needs_keys(self) -> bool:

@@ -37,6 +37,7 @@ Series = Float[np.ndarray, "entries samples"]
 KeptSeries = Float[np.ndarray, "entries instants"]
 Spectrum = Complex[np.ndarray, " _"]
 Indices = Int[np.ndarray, " _"]
+Runs = Int[np.ndarray, "runs 2"]
 BlockDraws = Int[np.ndarray, "draws blocks"]
 BlockKey = tuple[int, int]
 """Number of a log and of one of its blocks, both from 0."""

@@ -26,11 +26,11 @@ class ServiceError(VeritorqueError):
 
 
 class NoAnswerError(ServiceError):
-    """Nobody answers, or what answers is not the service."""
+    """No answer came, or none from the service."""
 
 
 class RefusedError(ServiceError):
-    """The service says no."""
+    """The service refused the request."""
 
 
 class NoResultError(ServiceError):

@@ -11,7 +11,7 @@ import time
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from .. import logging as journal
+from .. import logging as service_log
 from ..services.metrics import Metrics
 
 LOGGER = logging.getLogger(__name__)
@@ -43,7 +43,7 @@ class RequestLog:
             return
         begun, status = time.perf_counter(), 500  # unless an answer begins, it is the answer to a mistake
         request, trace = secrets.token_hex(8), trace_id(Headers(scope=scope).get("traceparent"))
-        journal.begin(request=request, trace=trace)
+        service_log.begin(request=request, trace=trace)
         scope.setdefault("state", {})["trace"] = trace
 
         async def noted(message: Message) -> None:

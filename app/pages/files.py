@@ -117,10 +117,10 @@ def _channels() -> dict[str, object]:
 
 
 def _page_files() -> dict[str, PageFile]:
-    folders = (PAGES / "static", PAGES / "example")
-    paths = [path for folder in folders for path in sorted(folder.iterdir())]
-    paths.extend(PAGES / "vendor" / bundle for bundle in BUNDLES)
-    return {path.name: PageFile(path) for path in paths}
+    static = PAGES / "static"
+    own = {path.relative_to(static).as_posix(): path for path in sorted(static.rglob("*.*"))}
+    others = [*sorted((PAGES / "example").iterdir()), *(PAGES / "vendor" / bundle for bundle in BUNDLES)]
+    return {name: PageFile(path) for name, path in (own | {path.name: path for path in others}).items()}
 
 
 STATIC: Final = _page_files()

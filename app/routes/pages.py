@@ -44,7 +44,7 @@ def docs_page() -> HTMLResponse:
     return HTMLResponse(shell("docs"), headers=PLAIN)
 
 
-@ROUTER.get("/static/{name}")
+@ROUTER.get("/static/{name:path}")
 def static_file(name: str, request: Request) -> Response:
     """Send one of the known files, packed where that is understood, unless the browser has it."""
     if name not in STATIC:

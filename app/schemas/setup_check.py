@@ -24,7 +24,7 @@ class Identifiable(Open):
 
 
 class SmallestEffect(Open):
-    """The size from which on a cause would about be found."""
+    """Approximate size from which a cause would be found."""
 
     joints: Annotated[list[int], about("empty if it concerns the whole robot")]
     name: Annotated[str, Field(examples=["excess_torque"])]

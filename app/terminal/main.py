@@ -7,7 +7,7 @@ import typer
 
 from ..version import VERSION
 from .guard import Commands
-from .output.streams import echo, speak_any_alphabet
+from .output.streams import echo, escape_unknown_characters
 
 MODULES = {
     "logs": "veritorque.app.terminal.commands.logs",
@@ -73,5 +73,5 @@ def _veritorque(
 
 def main() -> None:
     """Run the command line."""
-    speak_any_alphabet()
+    escape_unknown_characters()
     COMMANDS()

@@ -202,8 +202,8 @@ def _of_units(bodies: list[_Body]) -> list[Remark]:
                         "unit",
                         None,
                         "inertia",
-                        f"inertias over masses are typically {typical:.3g} times what the links' sizes "
-                        f"let expect, too {what} by about {factor:g}, as with {words}",
+                        f"inertias over masses are typically {typical:.3g} times those expected from the "
+                        f"links' sizes, too {what} by about {factor:g}, as with {words}",
                         "give masses in kg, lengths in m and inertias in kg m2",
                     )
                 ]

@@ -110,7 +110,7 @@ def stacked(several: Sequence[Reduced]) -> Reduced:
 
 
 def mean_log(errors: np.ndarray) -> np.ndarray:
-    """Give the mean logarithm of errors, none of which counts as smaller than can be told."""
+    """Give the mean logarithm of errors, each raised to `TRIAL.least_error` at least."""
     return np.asarray(np.mean(np.log(np.maximum(errors, TRIAL.least_error)), axis=-1))
 
 

@@ -81,7 +81,6 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
         none=found.none,
         chosen=chosen,
         steps=found.steps,
-        residual_before=_residual_before(found),
         residual_after=after,
         at_rest=stiction_share(fitter, chosen),
     )
@@ -142,13 +141,6 @@ def _compare(found: SearchState) -> tuple[SearchState, list[Comparison]]:
         # What follows is linearised where that search ended.
         kept = replace(kept, fitter=more.fitter)
     return kept, comparisons
-
-
-def _residual_before(found: SearchState) -> JointSeries:
-    """Give the residual without the findings: fitted anew, or, against a reference, as the reference is."""
-    if found.fitter.prior is None:
-        return residual(found.fitter, found.none)
-    return residual(found.fitter, found.chosen, range(len(found.chosen.members)))
 
 
 def _check_samples(problem: DiagnosisProblem) -> tuple[list[Finding], HypothesisFitter]:

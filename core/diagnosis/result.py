@@ -76,7 +76,7 @@ class Gain:
 class Finding:
     """Name one cause with everything that supports it.
 
-    `predictors` is what its confidence was computed from, None of a sample check. `proven` says that an
+    `predictors` is what its confidence was computed from, None of a sample check. `verified` says that an
     identification with it has predicted held-out motion significantly better.
     """
 
@@ -96,7 +96,7 @@ class Finding:
     curve: Curve | None
     member: Candidate | None
     predictors: tuple[float, float, float] | None = None
-    proven: bool = False
+    verified: bool = False
 
 
 @dataclass(frozen=True)
@@ -141,9 +141,8 @@ class Diagnosis:
     chosen: Hypothesis
     steps: tuple[Step, ...]
     """The hypotheses without and with the causes, and the decisions of the search."""
-    residual_before: np.ndarray
     residual_after: np.ndarray
-    """Residuals per row of the data set and joint, without and with the findings, N m or N."""
+    """Residual with the findings, per row of the data set and joint, N m or N."""
     at_rest: JointVector
     """Per joint, the share of the residual's mean square that is friction while the joint rests or turns
     round, and was taken out of it; not a number where it hardly moves."""

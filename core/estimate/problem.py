@@ -55,7 +55,7 @@ class ObservedProblem:
     weigh_reversals: bool = True
     """Whether rows beside a reversal are weighted by their own noise."""
     weights: JointVector | None = None
-    """Weight of these rows per joint; None while it is not told, and for one."""
+    """Weight of these rows per joint; None while it is not chosen, and for one."""
 
     @property
     def size(self) -> int:

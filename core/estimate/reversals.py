@@ -36,13 +36,13 @@ def reversal_weights(
         Number of base parameters.
     """
     ones = np.ones(len(moving))
-    told = np.array([first.rows >= second.rows > 0 for first, second in zip(moving, turning, strict=True)])
-    if not told.any() or sum(factor.rows for factor in moving) <= ROWS_PER_PARAMETER * base:
+    known = np.array([first.rows >= second.rows > 0 for first, second in zip(moving, turning, strict=True)])
+    if not known.any() or sum(factor.rows for factor in moving) <= ROWS_PER_PARAMETER * base:
         return ones
     weights, values = ones, weighted(_joined(moving, turning, ones), columns_of, base).solved()
     for _ in range(ROUNDS):
         quiet, loud = (joint_noise(factors, columns_of, values) for factors in (moving, turning))
-        weights = np.where(told, np.minimum(1.0, quiet / np.maximum(loud, quiet)), 1.0)
+        weights = np.where(known, np.minimum(1.0, quiet / np.maximum(loud, quiet)), 1.0)
         values = stacked(_joined(moving, turning, weights), columns_of, base, quiet).solved()
     return weights
 

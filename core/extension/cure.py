@@ -15,6 +15,9 @@ from ..dynamics.model import DynamicModel
 from ..dynamics.term import Term
 from ..reduction.base import BaseModel
 
+_WIDE = 10.0
+"""Width of the prior on a parameter that enters, over its value: so wide that the log decides."""
+
 
 def corrections(diagnosis: Diagnosis) -> tuple[Term, ...]:
     """Give the terms of the findings whose gain on held-out rows is significant or verified."""
@@ -29,13 +32,13 @@ def _entering_terms(diagnosis: Diagnosis) -> Iterator[tuple[Finding, Term]]:
 
 def enters(finding: Finding) -> bool:
     """Tell whether a finding's gain on held-out rows is significant or verified."""
-    return finding.proven or finding.gain is None or finding.gain.interval_95[0] > 0.0
+    return finding.verified or finding.gain is None or finding.gain.interval_95[0] > 0.0
 
 
 def sizes(diagnosis: Diagnosis) -> dict[str, float]:
     """Give, by name, what counts as one unit of deviation of the parameters that enter the model."""
     return {
-        f"{quantity.name}{quantity.joint}": 10.0 * abs(quantity.value)
+        f"{quantity.name}{quantity.joint}": _WIDE * abs(quantity.value)
         for finding in diagnosis.findings
         for quantity in finding.quantities
     }
@@ -53,9 +56,10 @@ def extended_base(base: BaseModel, terms: tuple[Term, ...]) -> BaseModel:
     return replace(base, model=model, kept=(*base.kept, *range(old, new)), grouping=grouping)
 
 
-def with_proven(diagnosis: Diagnosis) -> Diagnosis:
+def as_verified(diagnosis: Diagnosis) -> Diagnosis:
     """Give the diagnosis with every finding verified, so that all of them enter."""
-    return replace(diagnosis, findings=tuple(replace(finding, proven=True) for finding in diagnosis.findings))
+    findings = tuple(replace(finding, verified=True) for finding in diagnosis.findings)
+    return replace(diagnosis, findings=findings)
 
 
 def global_indices(diagnosis: Diagnosis, base: BaseModel) -> Indices:
@@ -63,7 +67,7 @@ def global_indices(diagnosis: Diagnosis, base: BaseModel) -> Indices:
     indices = list(range(len(base.kept)))
     members = (finding for finding in diagnosis.findings if finding.member is not None)
     stop = len(indices)
-    for finding, (_, term) in zip(members, _entering_terms(with_proven(diagnosis)), strict=True):
+    for finding, (_, term) in zip(members, _entering_terms(as_verified(diagnosis)), strict=True):
         start, stop = stop, stop + len(term.parameters(base.model.robot))
         if enters(finding):
             indices += range(start, stop)

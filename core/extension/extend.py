@@ -9,7 +9,7 @@ from ..estimate.problem import Problem
 from ..identification.identify import Fit, fit
 from ..identification.options import IdentifyOptions
 from ..regressor.observe import Observation
-from .cure import corrections, extended_base, global_indices, sizes, with_proven
+from .cure import as_verified, corrections, extended_base, global_indices, sizes
 from .gain import JointGain, gains
 from .verification import verify
 
@@ -32,7 +32,7 @@ def verified(
 
     @cache
     def observed() -> Observation:
-        return extend(with_proven(found), problem).observed(lambda _done: tell())
+        return extend(as_verified(found), problem).observed(lambda _done: tell())
 
     def tried(trial: Diagnosis) -> Fit:
         joined = extend(trial, problem)

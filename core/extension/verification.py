@@ -40,7 +40,7 @@ def verify(
         if finding.member is None or enters(finding):
             continue
         findings = list(diagnosis.findings)
-        findings[index] = replace(finding, proven=True)
+        findings[index] = replace(finding, verified=True)
         trial = replace(diagnosis, findings=tuple(findings))
         try:
             now = tried(diagnosis) if now is None else now
@@ -48,7 +48,7 @@ def verify(
         except SolverError:  # with it there is no answer
             continue
         if shown := _gain_evidence(finding, gained(now, then)):
-            findings[index] = replace(finding, proven=True, evidence=(*finding.evidence, *shown))
+            findings[index] = replace(finding, verified=True, evidence=(*finding.evidence, *shown))
             diagnosis, now = replace(diagnosis, findings=tuple(findings)), then
     return replace(diagnosis, findings=tuple(map(_doubted_unless_shown, diagnosis.findings))), now
 

@@ -54,7 +54,7 @@ def has_impossible_joint(found: Identification) -> bool:
 
 
 def _logs(found: Identification) -> list[str]:
-    """Say what a log shows against itself, whatever the fit; of several joints the first is told in full."""
+    """List the defects that put any fit of the logs in doubt, of several joints the first in full."""
     sentences = []
     for log in found.logs:
         for kind in DOUBTFUL:
@@ -62,11 +62,11 @@ def _logs(found: Identification) -> list[str]:
                 continue  # the way back may be in another log
             alike = [defect for defect in log.defects if defect.kind == kind]
             if alike:
-                sentences.append(f"Log {log.name}: {_told_once(alike)}")
+                sentences.append(f"Log {log.name}: {_summarised(alike)}")
     return sentences
 
 
-def _told_once(alike: Sequence[Defect]) -> str:
+def _summarised(alike: Sequence[Defect]) -> str:
     """State the first of some defects of one kind in full, and the joints of the others."""
     others = ", ".join(str(defect.joint) for defect in alike[1:])
     return alike[0].statement.rstrip(".") + (f" (likewise on joints {others})" if others else "")

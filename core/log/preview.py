@@ -113,48 +113,27 @@ def rows_between(
     return max(first - 1, 0), min(last + 1, samples)
 
 
-def thin_arrays(time: Samples, values: JointSeries, segments: Stretches = (), *, points: int) -> Preview:
-    """Thin traces that are in memory.
-
-    Parameters
-    ----------
-    time
-        Stamps in s.
-    values
-        One column per trace; what is NaN is passed over, and drawn as a gap where a stretch holds nothing
-        else.
-    segments
-        (start, stop) rows of the stretches between gaps; one of all rows if empty.
-    points
-        The most points per trace.
-
-    Examples
-    --------
-    >>> spike = np.zeros((1000, 1))
-    >>> spike[437] = 5.0
-    >>> seen = thin_arrays(np.arange(1000.0), spike, points=20)
-    >>> len(seen.time), float(seen.values.max())
-    (20, 5.0)
-    """
-    return thin(
-        lambda start, stop: (time[start:stop], values[start:stop]),
-        segments or ((0, len(time)),),
-        points=points,
-    )
-
-
 def thin(read: Rows, segments: Stretches, *, points: int) -> Preview:
     """Thin traces that are read by rows.
 
     Parameters
     ----------
     read
-        Gives stamps and values of the rows from start up to stop.
+        Gives stamps (s) of the rows from start up to stop, and values, one column per trace; what is NaN is
+        passed over, and drawn as a gap where a stretch holds nothing else.
     segments
         (start, stop) rows of the stretches between gaps, in order. Where there are more than an eighth of the
         points, neighbours are joined.
     points
         The most points per trace, `FEWEST_POINTS` at least.
+
+    Examples
+    --------
+    >>> time, spike = np.arange(1000.0), np.zeros((1000, 1))
+    >>> spike[437] = 5.0
+    >>> seen = thin(lambda start, stop: (time[start:stop], spike[start:stop]), ((0, 1000),), points=20)
+    >>> len(seen.time), float(seen.values.max())
+    (20, 5.0)
     """
     kept = _join(segments, max(1, points // SHARE_OF_GAPS))
     size = _rows_per_stretch([stop - start for start, stop in kept], points)

@@ -10,9 +10,10 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import JointVector, Matrix, SampleMask
+from ..arrays import JointVector, Matrix
 from ..errors import LogError
 from ..log.model import JointLog
+from ..numerics.marked_runs import marked_runs
 from ..robot.joint_units import prismatic_joints
 from ..robot.model import RobotModel
 from .parallel import Tile
@@ -47,17 +48,11 @@ class Motion:
         for segment in self.segments:
             owners = np.searchsorted(borders, done + np.arange(segment.kept), side="right") - 1
             wanted = np.ones(segment.kept, dtype=bool) if blocks is None else np.isin(owners, list(blocks))
-            for begin, end in _runs(wanted):
+            for begin, end in marked_runs(wanted).tolist():
                 for start in range(begin, end, TILE_KEPT):
                     kept = slice(start, min(start + TILE_KEPT, end))
                     yield segment.tile(self.effort_scale, kept, owners[kept], follows=start > begin)
             done += segment.kept
-
-
-def _runs(wanted: SampleMask) -> Iterator[tuple[int, int]]:
-    """Give where the runs of marked samples begin and end."""
-    edges = np.flatnonzero(np.diff(wanted, prepend=False, append=False))
-    return zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True)
 
 
 def condition(

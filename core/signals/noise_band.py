@@ -24,7 +24,7 @@ OUTWEIGHED = 1.0
 Where it has less, a narrower band loses as much as it gains: on a measured arm at 0.3, 5 % of the held-
 out error."""
 OWN_PART = 0.01
-"""An acceleration is told by positions and speeds if less than this share of its power is its own: a motion
+"""An acceleration follows from positions and speeds if less than this share of its power is its own: a motion
 of a few sines. Noise then turns what no fit separates, and predictions of such motion stay as they are."""
 SPECTRUM_OVER_RATE = 0.2
 """Spectra are read up to this share of the rate, where derivatives lack 3 % at most."""

@@ -1,4 +1,4 @@
-"""Bring stamped samples onto one clock: real stamps are honoured, uniform ones are left exactly as they are.
+"""Bring stamped samples onto one clock: real stamps are used, uniform ones are left exactly as they are.
 
 Between stamps positions follow a cubic spline and torques a straight line: positions are smooth and will be
 differentiated twice, torques carry noise that a spline would amplify. A few rows that repeat the row before
@@ -12,6 +12,7 @@ from scipy.interpolate import CubicSpline
 
 from ..arrays import Instants, InstantSeries, JointSeries, JointVector, SampleMask, Samples
 from ..log.model import STANDING_ROWS, LogRows, repeated_rows, rows_at
+from ..numerics.marked_runs import marked_runs
 from .clock import is_even
 from .derivative import absurd_reach, continued, median, without_absurd
 
@@ -83,9 +84,7 @@ def gap_mask(rows: LogRows, grid: Instants, longest: float) -> SampleMask:
 def dropped_mask(rows: LogRows) -> SampleMask:
     """Mark the repeats that stand for dropped samples; never the last row, beyond which nothing is known."""
     repeats = repeated_rows(rows)
-    starts = np.flatnonzero(np.diff(repeats, prepend=False) & repeats)
-    stops = np.flatnonzero(np.diff(repeats, append=False) & repeats) + 1
-    for start, stop in zip(starts, stops, strict=True):
+    for start, stop in marked_runs(repeats).tolist():
         if stop - start > STANDING_ROWS:
             repeats[start:stop] = False
     repeats[-1] = False

@@ -76,7 +76,7 @@ def _band(frequency: Vector, power: np.ndarray, share: float) -> JointVector:
     What is left of noise of which the mean was subtracted has either sign, and adds up to little.
     """
     held = np.cumsum(power, axis=0)
-    return np.array([frequency[np.argmax(one >= share * one.max())] for one in held.T])
+    return np.array([frequency[np.argmax(total >= share * total.max())] for total in held.T])
 
 
 def _low_pass(rate_hz: float) -> Matrix:

@@ -63,7 +63,7 @@ def test_the_figure_stands_where_the_service_says(look, service):
         robot = robot_from_description(description)
         coordinates = np.random.default_rng(1).uniform(-1.0, 1.0, len(robot.joints)).tolist()
         drawn = page.evaluate(
-            """async (given) => (await import("/static/kinematics.js")).place(...given)""",
+            """async (given) => (await import("/static/drawing/kinematics.js")).place(...given)""",
             [json.loads(json.dumps(description)), coordinates],
         )
         for seen, (rotation, origin) in zip(drawn, poses(robot, coordinates), strict=True):
@@ -77,7 +77,7 @@ def test_an_ellipsoid_keeps_its_outline_whichever_way_it_is_seen(look, service):
     ball = {"link": 1, "centre": [0, 0, 0], "axes": [[0.1, 0, 0], [0, 0.1, 0], [0, 0, 0.1]], "label": "ball"}
     sizes = page.evaluate(
         """async ([description, body]) => {
-          const { drawChain } = await import("/static/chain.js");
+          const { drawChain } = await import("/static/drawing/chain.js");
           const place = document.body.appendChild(document.createElement("div"));
           drawChain(place, description, { bodies: [body] });
           const stage = place.querySelector(".stage3d");
@@ -123,7 +123,7 @@ def test_the_figure_turns_by_drag_and_by_keys_and_follows_the_sliders(look, serv
     assert moved()
     assert shapes[-1] == shapes[-3]
     slide = """async (description) => {
-      const { drawChain } = await import("/static/chain.js");
+      const { drawChain } = await import("/static/drawing/chain.js");
       const place = document.body.appendChild(document.createElement("div"));
       drawChain(place, description);
       const slider = place.querySelector("input[type=range]");

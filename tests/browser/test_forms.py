@@ -71,14 +71,14 @@ def test_a_table_in_degrees_and_millimetres_is_sent_in_si(look, service):
 def test_numbers_are_read_as_people_write_them_and_written_as_they_read_them(look, service):
     page = look(service).open("/new")
     read = """async (texts) => {
-      const { readNumber } = await import("/static/controls.js");
+      const { readNumber } = await import("/static/base/controls.js");
       return texts.map((text) => Number.isNaN(readNumber(text)) ? null : readNumber(text));
     }"""
     texts = ["1.5", "1,5", "-pi/2", "3*pi/4", "π", "2e-3", f"{MINUS}90", "", "abc", "1.2.3", "pi/x"]
     expected = [1.5, 1.5, -math.pi / 2, 0.75 * math.pi, math.pi, 2e-3, -90, None, None, None, None]
     assert page.evaluate(read, texts) == pytest.approx(expected)
     write = """async (values) => {
-      const { relative } = await import("/static/words.js");
+      const { relative } = await import("/static/base/words.js");
       return values.map((value) => relative(value).replaceAll("\\u00a0", " "));
     }"""
     values = [0, 4e-16, 0.25, 3.14159, 2.07e9, -0.001, -5e4, None]
@@ -465,7 +465,7 @@ def test_a_coupling_that_was_found_is_applied_by_a_click(look, service):
     robot["couplings"] = [{"name": "joints 6 and 7", "number": 7, "joints": [6, 7], "weights": [1.0, 1.0]}]
     page.evaluate(
         """async (robot) => {
-          const { showFindings } = await import("/static/findings.js");
+          const { showFindings } = await import("/static/result/findings.js");
           const report = new DOMParser().parseFromString("<main></main>", "text/html");
           const repairs = [{ mends: "robot", what: "One coupling" }, { mends: "log", what: "not this" }];
           const job = { kind: "diagnose", robot: "yumi-left", logs: ["log-1"], options: { reference: null } };

@@ -164,7 +164,7 @@ def test_the_first_screen_says_what_came_out(look, service, studied):
     assert " (joint " in told
     of_one_joint = page.evaluate(
         """async (result) => {
-          const { showHeadline } = await import("/static/headline.js");
+          const { showHeadline } = await import("/static/result/headline.js");
           const place = document.createElement("div");
           const report = new DOMParser().parseFromString("<p></p>", "text/html");
           showHeadline(place, { job: { links: { report: "/" } }, document: result, report });

@@ -115,7 +115,7 @@ def test_result_report_and_comparison_are_there_for_whoever_has_a_key(held):
     assert saving.value.suggested_filename == "report.html"
     assert "physically consistent" in saving.value.path().read_text(encoding="utf-8")
     again = """async (id) => {
-      const { get, post } = await import("/static/api.js");
+      const { get, post } = await import("/static/base/api.js");
       const { kind, robot, logs } = await get(`/v1/jobs/${id}`);
       return post("/v1/jobs", { kind, robot, logs, options: { estimator: "ols" } });
     }"""

@@ -45,6 +45,7 @@ NAMED = {
         "conflicts/kinds/link_length": "_GENERAL",
         "conflicts/reduced": "RIDGE _REWEIGHTINGS",
         "conflicts/trial": "_GENERAL _STEP",
+        "extension/cure": "_WIDE",
         "extension/gain": "SEED",
         "diagnosis/bandwidth": "_POINTS",
         "diagnosis/causes/backlash": "SMOOTHING_OVER_BAND",
@@ -76,7 +77,6 @@ NAMED = {
         "diagnosis/checks/figure": "BINS EXPLAINED",
         "diagnosis/residual/atlas": "BINS FEWEST_IN_BIN _RIDGE",
         "diagnosis/residual/learner": "_PLACES",
-        "diagnosis/residual/spectrum": "LONGEST SHORTEST",
     },
 }
 """Constants of modules that decide nothing, by the reason why.
@@ -91,6 +91,7 @@ UNNAMED = {
         "3": "a mass centre has three coordinates",
         "4": "numbers of a body before its inertia",
         "6": "an inertia has six numbers",
+        "10": "a body has ten numbers",
         "0.001": "a body of a gram",
         "0.0001": "a body of a centimetre",
     },
@@ -100,20 +101,24 @@ UNNAMED = {
     "diagnosis/causes/dropped_samples": {"0.01": "per cent"},
     "diagnosis/causes/external_contact": {"3": "a force has three components"},
     "diagnosis/causes/torque_gain_nonlinear": {"3.0": "root of a cubic", "1.5": "root of a cubic"},
+    "diagnosis/causes/shared/bodies": {"10": "a body has ten parameters"},
+    "diagnosis/checks/bursts": {"10.0": "decimal logarithm"},
     "diagnosis/checks/confidence": {"4": "digits in a file"},
+    "diagnosis/checks/findings": {"10.0": "decimal logarithm"},
     "diagnosis/checks/kurtosis": {
+        "10.0": "decimal logarithm",
         "3.0": "fourth central moment",
         "4.0": "fourth central moment",
         "5": "powers 0 to 4",
         "6.0": "fourth central moment",
     },
-    "diagnosis/diagnose": {"0.1": "progress"},
+    "diagnosis/diagnose": {"0.1": "progress", "10.0": "decimal logarithm"},
     "diagnosis/causes/timestamp_jitter": {"2": "joints are compared in pairs"},
     "diagnosis/residual/atlas": {"2": "one bin has no curve"},
     "diagnosis/residual/learner": {"0.5": "a sum of zeros and ones is not zero"},
 }
 """Numbers within functions that decide nothing, with the reason why."""
-PLAIN = {0, 1, 2, 0.5, 10, 100, 1000}
+PLAIN = {0, 1, 2, 0.5, 100, 1000}
 """Numbers of formulae and units; where something is compared, clipped or a default, only the first two."""
 GUARD = 1e-6
 """Smaller ones keep a quotient finite."""
@@ -228,6 +233,7 @@ def usage(name: str) -> str:
     ("code", "found"),
     [
         ("def f(x):\n    return len(x) < 4", {"4"}),
+        ("def f(x):\n    return len(x) // 10", {"10"}),
         ("def f(x):\n    return x > 0.5", {"0.5"}),
         ("def f(x):\n    return 0.85 * x", {"0.85"}),
         ("def f(x):\n    return np.clip(x, 0.5, 3.0)", {"0.5", "3.0"}),

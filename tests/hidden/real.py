@@ -40,7 +40,7 @@ def judge_on_held_out_motion(found: Extension) -> None:
     """Hold confident causes to a gain on held-out rows, of their own or identified, and their cure to one."""
     searched = [one for one in found.diagnosis.findings if one.gain is not None]
     confident = [one for one in searched if one.confidence > CONFIDENCE.doubtful]
-    assert all(one.proven or one.gain.interval_95[0] > 0.0 for one in confident)
+    assert all(one.verified or one.gain.interval_95[0] > 0.0 for one in confident)
     before, after = map(percents_of_all_rows, (found.before, found.after))
     assert np.mean(np.log(after / before)) < 0.0
 

@@ -42,7 +42,7 @@ class Limits:
         _limit(resource.RLIMIT_CPU, math.ceil(time.process_time() + self.cpus * seconds) + 1)
 
     def lift_memory(self) -> None:
-        """Let this process use more again, to say in peace that it had too little."""
+        """Raise the limit again, so that the process can report that it had too little memory."""
         _, most = resource.getrlimit(resource.RLIMIT_DATA)
         resource.setrlimit(resource.RLIMIT_DATA, (most, most))
 

@@ -1,9 +1,9 @@
 // Compare two studies side by side: settings, results, and differences in standard deviations.
-import { get } from "./api.js";
-import { showDifferences } from "./differences.js";
-import { element, fill } from "./dom.js";
-import { showError } from "./problem.js";
-import { KINDS, ago, plain, short } from "./words.js";
+import { get } from "./base/api.js";
+import { showDifferences } from "./result/differences.js";
+import { element, fill } from "./base/dom.js";
+import { showError } from "./base/problem.js";
+import { KINDS, ago, plain, short } from "./base/words.js";
 
 const SIDES = ["left", "right"];
 const container = document.getElementById("compare");

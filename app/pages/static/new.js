@@ -1,7 +1,7 @@
 // The way to a new study: a robot, one log or several, a question. Each part tells what was chosen; this page holds it.
-import { askQuestion } from "./question.js";
-import { chooseLogs } from "./logs.js";
-import { chooseRobot } from "./robots.js";
+import { askQuestion } from "./study/question.js";
+import { chooseLogs } from "./log/logs.js";
+import { chooseRobot } from "./robot/robots.js";
 
 const wanted = new URLSearchParams(location.search);
 const question = askQuestion(document.getElementById("question"));

@@ -1,7 +1,7 @@
 // The start page: one click to a study of the example, and the studies so far.
-import { tryExample } from "./example.js";
-import { showError } from "./problem.js";
-import { showStudies } from "./studies.js";
+import { tryExample } from "./study/example.js";
+import { showError } from "./base/problem.js";
+import { showStudies } from "./study/studies.js";
 
 const said = document.getElementById("said");
 

@@ -1,11 +1,11 @@
 // One study: live progress while it runs, its problem if it failed, its result if it succeeded.
-import { get, request } from "./api.js";
-import { element, fill } from "./dom.js";
-import { followJob } from "./events.js";
-import { problemBox, showError } from "./problem.js";
-import { show } from "./result.js";
-import { state } from "./studies.js";
-import { KINDS, ago, duration, percent, plain, short } from "./words.js";
+import { get, request } from "./base/api.js";
+import { element, fill } from "./base/dom.js";
+import { followJob } from "./base/events.js";
+import { problemBox, showError } from "./base/problem.js";
+import { show } from "./result/result.js";
+import { state } from "./study/studies.js";
+import { KINDS, ago, duration, percent, plain, short } from "./base/words.js";
 
 const container = document.getElementById("study");
 const id = location.pathname.split("/")[2]; // stays as it is written in the address

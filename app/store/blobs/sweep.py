@@ -1,4 +1,4 @@
-"""Remove blobs that no record needs any more, without asking a clock how old they are.
+"""Remove blobs that no record needs any more, without comparing times.
 
 A blob is written before the record that needs it, so a new one may be without a record for a moment. A blob
 is removed if it was without a record in two passes in a row, a while apart, and was not kept again between

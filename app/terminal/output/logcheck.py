@@ -39,7 +39,7 @@ def lines_of(path: Path, seen: LogCheck) -> Iterator[str]:
 def document_of(path: Path, seen: LogCheck) -> dict[str, Any]:
     """Give the check as a document."""
     log = seen.log
-    told: dict[str, Any] = {
+    summary: dict[str, Any] = {
         "name": path.name,
         "format": seen.format,
         "columns": seen.columns,
@@ -53,7 +53,7 @@ def document_of(path: Path, seen: LogCheck) -> dict[str, Any]:
         "other_arms": seen.other_arms,
     }
     if log is not None:
-        told |= {
+        summary |= {
             "samples": log.samples,
             "duration_s": log.duration,
             "rate_hz": log.rate_hz,
@@ -63,12 +63,12 @@ def document_of(path: Path, seen: LogCheck) -> dict[str, Any]:
             "reach": [asdict(span) for span in seen.reach],
         }
     if seen.refusal is not None:
-        told["problem"] = {
+        summary["problem"] = {
             "cause": seen.refusal.cause,
             "evidence": seen.refusal.evidence,
             "remedy": seen.refusal.remedy,
         }
-    return {name: plain(value) for name, value in told.items()}
+    return {name: plain(value) for name, value in summary.items()}
 
 
 def _reach_lines(reach: Sequence[Reach]) -> Iterator[str]:

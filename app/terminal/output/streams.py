@@ -11,11 +11,11 @@ if TYPE_CHECKING:
 MOST_PARTS = 4
 """Named parts of what was seen that are written out; documents hold all."""
 PIPED_WIDTH = 200
-"""Columns where nobody watches: lines are not folded, so that a table keeps one row a line."""
+"""Columns where the output is no terminal: lines are not folded, so that a table keeps one row a line."""
 
 
-def speak_any_alphabet() -> None:
-    """Write what the terminal's alphabet lacks as escapes, so that no name of a file stops a command."""
+def escape_unknown_characters() -> None:
+    """Write characters that the encoding lacks as escapes, so that no name of a file stops a command."""
     if isinstance(sys.stdout, TextIOWrapper):
         sys.stdout.reconfigure(errors="backslashreplace")
 
@@ -68,13 +68,13 @@ def complain(cause: str, evidence: Mapping[str, object], remedy: str) -> None:
 def _console(*, error: bool) -> "Console":
     from rich.console import Console
 
-    class Frank(Console):
-        """Tell of a reader who has read enough, where rich would end the program with 1."""
+    class PipeConsole(Console):
+        """Raise on a closed pipe, where rich would end the program with 1."""
 
         def on_broken_pipe(self) -> NoReturn:
             raise BrokenPipeError
 
-    console = Frank(stderr=error, highlight=False)
+    console = PipeConsole(stderr=error, highlight=False)
     if not console.is_terminal:
         console.width = PIPED_WIDTH
     return console

@@ -74,8 +74,8 @@ def effort_column(result: Document, heading: str, rows: Sequence[Document], key:
     units = [unit_of_effort(result, row["joint"]) for row in rows]
     if len(set(units)) == 1:
         return Column(f"{heading}, {units[0]}", numbers, spare=spare)
-    told = [f"{value} {unit}" if value else "" for value, unit in zip(numbers, units, strict=True)]
-    return Column(heading, told, spare=spare)
+    cells = [f"{value} {unit}" if value else "" for value, unit in zip(numbers, units, strict=True)]
+    return Column(heading, cells, spare=spare)
 
 
 def summary(result: Document) -> list[str]:

@@ -172,7 +172,7 @@ IMITATIONS: tuple[Imitation, ...] = (
     Imitation(
         "encoder_offset",
         "gravity_misalignment",
-        "joints that carry the arm against gravity see a tilted base as a zero error",
+        "for joints that carry the arm against gravity, a tilted base has the effect of a zero error",
         "turn the first joint by half a turn: the effect of a tilted base changes its sign",
     ),
     Imitation(

@@ -61,7 +61,7 @@ def contacts_at_rest(dataset: Dataset, operating_point: Prediction) -> tuple[Sam
     scale, jacobian = _scale(dataset, operating_point), contact_jacobian(dataset.robot, link, dataset.state)
     pushes = []
     for rows in _stands(dataset):
-        edge = max(AT_REST.edge_rows, len(rows) // 10)
+        edge = max(AT_REST.edge_rows, int(AT_REST.edge_share * len(rows)))
         torque = dataset.torque[rows]
         ends = np.array([np.median(part, axis=0) for part in (torque[:edge], torque[-edge:])])
         change = torque - ends.mean(axis=0)
@@ -138,18 +138,18 @@ def _finding(dataset: Dataset, joint: int, pushes: Sequence[_Push]) -> SampleFin
             Quantity(f"end_{number}", None, "s", push.end, push.step),
         ]
     clearest = max(push.excess for push in pushes)
-    told = "; ".join(_told(dataset, push) for push in pushes)
+    described = "; ".join(_described(dataset, push) for push in pushes)
     return SampleFinding(
         site=(joint,),
         quantities=tuple(found),
-        statement=f"External contact while the arm stands: {told}",
+        statement=f"External contact while the arm stands: {described}",
         statistic=clearest,
         p_value=float(max(2.0 * norm.sf(AT_REST.deviations + clearest), 1e-300)),
         residual_share=np.zeros(dataset.joints),
     )
 
 
-def _told(dataset: Dataset, push: _Push) -> str:
+def _described(dataset: Dataset, push: _Push) -> str:
     unit = joint_unit(dataset.robot, push.joint, "N m")
     where = f" of {push.log}" if len(dataset.motions) > 1 else ""
     return (

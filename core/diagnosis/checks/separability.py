@@ -37,7 +37,7 @@ Answer = Literal["yes", "needs_motion", "never"]
 
 @dataclass(frozen=True, eq=False)
 class Smallest:
-    """Hold the size from which on a cause would about be found."""
+    """Hold the approximate size from which a cause would be found."""
 
     quantity: Quantity
     falls: bool

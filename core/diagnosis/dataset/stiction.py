@@ -14,6 +14,7 @@ from scipy.sparse import csr_array
 from ...arrays import JointVector, Series
 from ...dynamics.terms.coupling import motor_speed
 from ...dynamics.terms.effect import step_of
+from ...numerics.marked_runs import marked_runs
 from ...robot.model import RobotModel
 from ...signals.state import MotionState
 from ..thresholds.dataset import ROWS
@@ -64,8 +65,8 @@ def _runs(marks: np.ndarray) -> list[tuple[int, int]]:
     >>> _runs(np.array([False, True, False, False, False])), _runs(np.zeros(5, dtype=bool))
     ([(0, 3)], [])
     """
-    edges = np.diff(np.pad(marks.astype(int), 1))
-    begins, ends = np.flatnonzero(edges == 1) - 1, np.flatnonzero(edges == -1) + 1
+    first, stop = marked_runs(marks).T
+    begins, ends = first - 1, stop + 1
     if not len(begins):
         return []
     apart = np.append(True, begins[1:] > ends[:-1])

@@ -32,8 +32,6 @@ class NoiseFloor:
     source: tuple[FloorSource, ...]
     """The value to use and its method: repeats before the high band; NaN and ``none`` where neither
     applies."""
-    from_repeats: JointVector
-    """The values from repeats; NaN where the motion does not repeat."""
     tilt: JointVector
     """Power density of the high band's lower half over its upper half: 1 for white noise, above where noise
     grows towards low frequencies, NaN where there is no high band."""
@@ -61,7 +59,6 @@ def noise_floor(dataset: Dataset, residual: JointSeries) -> NoiseFloor:
     return NoiseFloor(
         rms=np.where(use, repeated, high),
         source=source,
-        from_repeats=repeated,
         tilt=tilt,
         period=None if found is None else found.period,
     )

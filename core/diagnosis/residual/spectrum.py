@@ -1,22 +1,17 @@
 """Show a residual over frequency, with the noise floor beside it.
 
 Structure that no listed coordinate shows may be a line or a peak; a residual at the floor in every band is
-noise. Source: Welch, IEEE Trans. Audio Electroacoust. 15(2), 1967.
+noise.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import welch
 
 from ...arrays import JointSeries, Vector
+from ...numerics.power_density import SHORTEST, power_density
 from ..dataset.dataset import Dataset
 from .floor import NoiseFloor, passed_power
-
-LONGEST = 256
-SHORTEST = 32
-"""Runs of fewer usable rows say nothing about frequency."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,24 +36,12 @@ def residual_spectra(
         runs = [run for run in _runs(dataset, joint) if run.stop - run.start >= SHORTEST]
         if not runs:
             continue
-        size = min(LONGEST, max(run.stop - run.start for run in runs))
-        frequency, density = _welch([residual[run, joint] for run in runs], _rate(dataset, runs[0]), size)
+        frequency, density = power_density([residual[run, joint] for run in runs], _rate(dataset, runs[0]))
         shape = passed_power(dataset, frequency)
         width = float(np.trapezoid(shape, frequency))
         level = floor.rms[joint] ** 2 / max(width, 1e-300)
         found.append(ResidualSpectrum(joint + 1, frequency, density, level * shape))
     return tuple(found)
-
-
-def _welch(runs: Sequence[np.ndarray], rate_hz: float, size: int) -> tuple[Vector, Vector]:
-    """Average the runs' densities, each weighted by its rows; shorter runs are padded with zeros."""
-    total, rows = np.zeros(size // 2 + 1), 0
-    frequency = np.fft.rfftfreq(size, 1.0 / rate_hz)
-    for run in runs:
-        length = min(size, len(run))
-        _, density = welch(run, rate_hz, nperseg=length, nfft=size, detrend=False)
-        total, rows = total + len(run) * density, rows + len(run)
-    return frequency, np.asarray(total / rows)
 
 
 def _runs(dataset: Dataset, joint: int) -> list[slice]:

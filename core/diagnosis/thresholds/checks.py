@@ -109,6 +109,8 @@ class AtRest:
     edge_rows: int = 2
     """Rows at either end, at least, whose median is the torque without a push; twice as many have to lie
     between."""
+    edge_share: float = 0.1
+    """Share of a long stand's rows at either end that the median is taken over."""
 
 
 @dataclass(frozen=True)

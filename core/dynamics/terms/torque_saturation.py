@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Samples
+from ...numerics.marked_runs import marked_runs
 from ...signals.state import MotionState
 from ..prediction import Prediction
 from .effect import OneJointTerm
@@ -34,19 +35,13 @@ class Saturation(OneJointTerm):
         if state.time is None:
             return [bulge, skew]
         excess = np.abs(torque) - self.limit
-        for first, last in _runs(excess > 0.0):
-            begin, end = _crossing(state.time, excess, first, -1), _crossing(state.time, excess, last, 1)
-            now = state.time[first : last + 1]
+        for first, stop in marked_runs(excess > 0.0).tolist():
+            begin, end = _crossing(state.time, excess, first, -1), _crossing(state.time, excess, stop - 1, 1)
+            now = state.time[first:stop]
             arch = np.sign(torque[first]) * 0.5 * (now - begin) * (end - now)
-            bulge[first : last + 1] = arch
-            skew[first : last + 1] = arch * (now - 0.5 * (begin + end))
+            bulge[first:stop] = arch
+            skew[first:stop] = arch * (now - 0.5 * (begin + end))
         return [bulge, skew]
-
-
-def _runs(marks: np.ndarray) -> list[tuple[int, int]]:
-    """List first and last index of every run of marks."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], marks, [False]]).astype(int)))
-    return [(int(first), int(stop) - 1) for first, stop in zip(edges[::2], edges[1::2], strict=True)]
 
 
 def _crossing(time: Samples, excess: Samples, inside: int, step: int) -> float:

@@ -40,10 +40,10 @@ def unnamed_channels(table: Table) -> dict[str, list[str]]:
     block = block[:, np.isfinite(block).all(axis=0)]
     if block.shape[1] < FEWEST_ROWS or not np.all(np.diff(block[0]) > 0.0):
         return {}
-    return next((found for count in QUANTITIES if (found := _told(names, block, count))), {})
+    return next((found for count in QUANTITIES if (found := _channels_of(names, block, count))), {})
 
 
-def _told(names: tuple[str, ...], block: Series, count: int) -> dict[str, list[str]]:
+def _channels_of(names: tuple[str, ...], block: Series, count: int) -> dict[str, list[str]]:
     """Tell so many quantities of all joints; empty where the columns are not so many."""
     joints, rest = divmod(len(names) - 1, count)
     if rest or not joints:

@@ -89,12 +89,12 @@ def numbered_families(names: Sequence[str]) -> dict[str, list[str]]:
 
 
 def _merged(
-    families: Mapping[str, list[tuple[int, str]]], told_by: Callable[[str], Hashable]
+    families: Mapping[str, list[tuple[int, str]]], named_by: Callable[[str], Hashable]
 ) -> dict[str, list[tuple[int, str]]]:
-    """Merge families of which the same is told, if they are of different joints."""
+    """Merge families of which the same is said, if they are of different joints."""
     alike: dict[Hashable, list[str]] = {}
     for stem in families:
-        alike.setdefault(told_by(stem), []).append(stem)
+        alike.setdefault(named_by(stem), []).append(stem)
     merged: dict[str, list[tuple[int, str]]] = {}
     for stems in alike.values():
         found = list(chain.from_iterable(families[stem] for stem in stems))
@@ -125,9 +125,9 @@ def named_families(names: Sequence[str]) -> dict[str, list[str]]:
     families: dict[str, list[str]] = {}
     for name in names:
         words = name_words(name)
-        told = sorted(words & (_CHANNEL_WORDS | REFERENCE_WORDS))
-        if told and words - set(told):
-            families.setdefault(" ".join(told), []).append(name)
+        named = sorted(words & (_CHANNEL_WORDS | REFERENCE_WORDS))
+        if named and words - set(named):
+            families.setdefault(" ".join(named), []).append(name)
     return families
 
 
@@ -172,9 +172,9 @@ def single_families(names: Sequence[str]) -> dict[str, list[str]]:
     >>> single_families(["t", "angle", "torque"])
     {'angle': ['angle'], 'torque': ['torque']}
     """
-    told = {name: channel for name in names if (channel := channel_of(name, ())) is not None}
-    unclear = len(set(told.values())) < len(told)
-    return {} if unclear else {name: [name] for name in told}
+    named = {name: channel for name in names if (channel := channel_of(name, ())) is not None}
+    unclear = len(set(named.values())) < len(named)
+    return {} if unclear else {name: [name] for name in named}
 
 
 def arm_of(stem: str) -> frozenset[str]:

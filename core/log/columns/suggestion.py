@@ -37,25 +37,12 @@ MOTOR_SIDE = ("position", "velocity", "torque")
 IMPLAUSIBLE = "implausible_unit"
 
 
-def suggest_mapping(table: Table) -> dict[str, object] | None:
-    """Give a mapping that fits the names of the columns; None where the names are not enough.
-
-    Units are those that names or the file say, else the most plausible by size, or `UNKNOWN` where no unit
-    fits the size; so is the rate of a log without a clock, and what one count or one per cent is.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from veritorque.core.log.formats.table import MemoryTable
-    >>> columns = {"t": 0.004 * np.arange(9.0), "pos1": np.full(9, 90.0), "trq1": np.full(9, 2.5)}
-    >>> suggest_mapping(MemoryTable(columns))["position"]
-    {'columns': ['pos1'], 'unit': 'deg'}
-    """
-    return next(iter(suggest_mappings(table)), None)
-
-
 def suggest_mappings(table: Table, prismatic: Collection[int] = ()) -> list[dict[str, object]]:
     """Give the mapping that fits the names of the columns, or one for each arm that the file holds.
+
+    None is given where the names are not enough. Units are those that names or the file say, else the most
+    plausible by size, or `UNKNOWN` where no unit fits the size; so is the rate of a log without a clock, and
+    what one count or one per cent is.
 
     Parameters
     ----------
@@ -69,6 +56,9 @@ def suggest_mappings(table: Table, prismatic: Collection[int] = ()) -> list[dict
     >>> suggested = suggest_mappings(MemoryTable({"t": 0.004 * np.arange(9.0)} | waves), prismatic=[2])
     >>> suggested[0]["position"]["unit"], suggested[0]["torque"]["unit"]
     (['rad', 'm'], ['N m', 'N'])
+    >>> columns = {"t": 0.004 * np.arange(9.0), "pos1": np.full(9, 90.0), "trq1": np.full(9, 2.5)}
+    >>> suggest_mappings(MemoryTable(columns))[0]["position"]
+    {'columns': ['pos1'], 'unit': 'deg'}
     """
     profile = _profile(table.names)
     if profile is not None:
@@ -109,13 +99,13 @@ def explained(error: LogError, table: Table) -> LogError:
 
 
 def _half(table: Table) -> tuple[str, str] | None:
-    """Tell what a file holds and what it lacks; None where neither or both are told by its names."""
+    """Tell what a file holds and what it lacks; None where its names say neither or both."""
     families = numbered_families(table.names) | single_families(table.names)
-    told = {channel for stem in families if (channel := channel_of(stem, ())) is not None}
+    named = {channel for stem in families if (channel := channel_of(stem, ())) is not None}
     recorded = (fill_in({PROFILE: name}, table.names) for name in PROFILES if _is_ordered(name, table.names))
-    told |= {channel for filled in recorded if isinstance(filled, dict) for channel in filled}
-    efforts = {*EFFORTS, "torque_ref"} & told
-    if bool(efforts) == ("position" in told):
+    named |= {channel for filled in recorded if isinstance(filled, dict) for channel in filled}
+    efforts = {*EFFORTS, "torque_ref"} & named
+    if bool(efforts) == ("position" in named):
         return None
     return ("positions", "torque or current") if not efforts else ("torque or current", "positions")
 
@@ -190,8 +180,8 @@ def _open_units(profile: str, table: Table, prismatic: Collection[int]) -> dict[
 def _clock(channels: Mapping[str, Sequence[str]], table: Table) -> dict[str, object]:
     """Give the clock by its name, else the first column that only grows, else leave the rate open."""
     words = set(CHANNELS[TIME].words)
-    told = (name for name in table.names if name_words(name) & words and channel_of(name, ()) is None)
-    stamps = next(iter(channels.get(TIME, ())), None) or next(told, None) or _growing(channels, table)
+    called = (name for name in table.names if name_words(name) & words and channel_of(name, ()) is None)
+    stamps = next(iter(channels.get(TIME, ())), None) or next(called, None) or _growing(channels, table)
     return (
         {RATE: UNKNOWN} if stamps is None else {TIME: {"column": stamps, "unit": _unit(TIME, table, stamps)}}
     )

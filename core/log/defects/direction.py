@@ -1,6 +1,6 @@
 """Find joints that move one way only: Coulomb friction and torque offset of these are not distinguished.
 
-The way is counted between instants a tenth of a second apart, so that noise gets nowhere.
+The way is counted between instants a tenth of a second apart, so that noise averages out.
 """
 
 import numpy as np

@@ -7,6 +7,7 @@ fit.
 import numpy as np
 
 from ...arrays import Indices, SampleMask, Samples, Series
+from ...numerics.marked_runs import marked_runs
 from ..model import Defect
 from .runs import KEPT
 from .stretch import Facts, Stretch, count_text
@@ -80,10 +81,9 @@ def _rests(
     still: SampleMask, starts: Samples, stops: Samples, rows: Indices
 ) -> tuple[list[tuple[float, float]], int]:
     """Join neighbouring blocks at rest, keep the long ones, and count their rows."""
-    padded = np.concatenate([[False], still, [False]])
-    edges = np.flatnonzero(padded[1:] != padded[:-1])
-    begin, end = starts[edges[::2]], stops[edges[1::2] - 1]
+    first, stop = marked_runs(still).T
+    begin, end = starts[first], stops[stop - 1]
     long = end - begin >= SHORTEST_SECONDS
     before = np.concatenate([[0], np.cumsum(rows)])
-    count = int(np.sum((before[edges[1::2]] - before[edges[::2]])[long]))
+    count = int(np.sum((before[stop] - before[first])[long]))
     return [(float(t0), float(t1)) for t0, t1 in zip(begin[long], end[long], strict=True)], count

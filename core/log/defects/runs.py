@@ -6,6 +6,7 @@ A log can hold a million runs; the count and total are exact, and only the twent
 import numpy as np
 
 from ...arrays import EquationRows, Mask, SampleMask, Samples
+from ...numerics.marked_runs import marked_runs
 from ..model import STANDING_ROWS
 
 KEPT = 20
@@ -42,10 +43,7 @@ class Runs:
         if not mask.any():
             self.close()
             return
-        padded = np.zeros(len(mask) + 2, dtype=bool)
-        padded[1:-1] = mask
-        edges = np.flatnonzero(padded[1:] != padded[:-1])
-        starts, stops = edges[::2], edges[1::2]
+        starts, stops = marked_runs(mask).T
         begin, end, rows = time[starts], time[stops - 1], stops - starts
         if self._open is not None and starts[0] == 0:
             begin[0] = self._open[0]

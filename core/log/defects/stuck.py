@@ -1,9 +1,9 @@
 """Find a channel that keeps one value exactly while its joint moves, as one does whose sensor or link hangs.
 
 A position that moved, stood still for a moment and is much farther on afterwards did not stand still; nor did
-one that goes on with a step larger than any other. A
-torque that carries noise does not repeat a value many times while the joint gets on, unless it is clipped. A
-channel that does so again and again is coarse or held by its maker: that is a habit and no fault.
+one that goes on with a step larger than any other. A torque that carries noise does not repeat a value many
+times while the joint moves, unless it is clipped. A channel that does so again and again is coarse or held by
+its maker: that is usual and no fault.
 """
 
 from collections import Counter
@@ -25,7 +25,7 @@ MOVES = 0.05
 LONGEST_S = 1.0
 """A position that stays longer is a joint that rests."""
 MOST_RUNS = 10
-"""More runs than these are the channel's habit."""
+"""More runs than these are usual for the channel."""
 MOST_VALUES = 10_000
 """More values than these that were ever repeated are not kept; such a channel is not judged."""
 GAP_STEPS = 3.0
@@ -158,14 +158,14 @@ class _Signal:
         runs = self._runs.ended
         lasted = runs[:, 1, _ROW] - runs[:, 0, _ROW]
         kept = np.array([self._again[value] for value in runs[:, 0, _VALUE]], dtype=float)
-        habit = len(runs) > MOST_RUNS or len(self._again) >= MOST_VALUES
-        runs = runs[:0] if habit else runs[kept <= lasted]
+        usual = len(runs) > MOST_RUNS or len(self._again) >= MOST_VALUES
+        runs = runs[:0] if usual else runs[kept <= lasted]
         runs[:, 0, _ROW] -= runs[:, 0, _BEFORE] > self._jump
         return runs
 
 
 def net_travel(position: Samples) -> Samples:
-    """Give how far a joint has got at every sample, from one to one many later: noise gets nowhere."""
+    """Give how far a joint has got at every sample, from one to one many later: noise averages out."""
     marks = np.arange(len(position)) // STANDING_ROWS
     marked = position[::STANDING_ROWS]
     along = np.append(0.0, np.cumsum(np.abs(np.diff(marked))))

@@ -101,7 +101,7 @@ def _lost(rows: LogRows) -> SampleMask:
 def _lost_runs(values: Samples) -> tuple[Indices, Indices]:
     """Give the first samples of such runs, and the samples behind them.
 
-    What a step usually is, is told by the other steps: where there are none, a channel is made of such runs.
+    The other steps show how large a step usually is; without any, the whole channel consists of such runs.
     """
     edges = np.flatnonzero(values[1:] != values[:-1]) + 1
     steps = np.abs(values[edges] - values[edges - 1])

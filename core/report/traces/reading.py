@@ -17,6 +17,7 @@ import pyarrow.parquet as pq
 from ...arrays import Instants, InstantSeries, JointSeries, Mask, Samples
 from ...errors import OptionError
 from ...log.preview import rows_between, thin
+from ...numerics.marked_runs import marked_runs
 from .layout import HELD_OUT, LOG, SIGNALS, TIME, USED, column
 
 GAP_STEPS = 1.5
@@ -163,9 +164,9 @@ def stretches(time: Samples) -> list[tuple[int, int]]:
 
 def _spans(time: Samples, marks: Mask) -> Spans:
     """Give first and last time of every run of marks; if there are many, the nearest are merged."""
-    edges = np.flatnonzero(np.diff(marks.astype(np.int8), prepend=0, append=0)).reshape(-1, 2)
-    begin, end = time[edges[:, 0]], time[edges[:, 1] - 1]
-    if len(edges) > MOST_SPANS:
+    first, stop = marked_runs(marks).T
+    begin, end = time[first], time[stop - 1]
+    if len(begin) > MOST_SPANS:
         apart = begin[1:] - end[:-1]
         kept = np.sort(np.argsort(apart, kind="stable")[-(MOST_SPANS - 1) :])
         begin, end = np.append(begin[0], begin[1:][kept]), np.append(end[:-1][kept], end[-1])

@@ -3,12 +3,10 @@
 Over a coordinate, rows that count are sorted into bins of nearly equally many: a mean that leaves zero by
 more than its neighbours says that the model lacks something which depends on that coordinate, and the band
 between quantiles shows the spread of single rows. Over frequency the density of unbroken runs is averaged.
-Source: Welch, IEEE Trans. Audio Electroacoust. 15(2), 1967.
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +14,8 @@ import pyarrow.parquet as pq
 
 from ...arrays import Mask, Samples, Vector
 from ...errors import ExcitationError
+from ...numerics.marked_runs import marked_runs
+from ...numerics.power_density import power_density
 from .layout import TIME, USED, column
 from .reading import LogOfTraces, stretches
 
@@ -24,8 +24,6 @@ RESIDUALS = ("residual", "residual_after")
 BINS = 40
 FEWEST_IN_BIN = 5
 BAND = (0.05, 0.95)
-LONGEST_RUN, SHORTEST_RUN = 256, 32
-"""Rows of one transform: more resolve finer, fewer are averaged more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +95,10 @@ def read_views(path: Path, *, log: int, joint: int) -> Views:
         )
         runs = list(_runs(rows.column(TIME), used))
         rate = 1.0 / float(np.median(np.diff(rows.column(TIME))))
-        densities = tuple(_density(name, values, runs, rate) for name, values in residual.items())
+        densities = tuple(
+            Density(name, *power_density([values[run] for run in runs], rate))
+            for name, values in residual.items()
+        )
         return Views(rows.unit(column("residual", joint)), int(used.sum()), over, densities)
 
 
@@ -115,24 +116,5 @@ def _over(name: str, unit: str, values: Samples, residual: dict[str, Samples], u
 def _runs(time: Samples, used: Mask) -> Iterator[slice]:
     """Give the unbroken runs of rows used."""
     for start, stop in stretches(time):
-        borders = np.flatnonzero(np.diff(used[start:stop].astype(np.int8), prepend=0, append=0)) + start
-        for begin, end in list(pairwise(borders.tolist()))[::2]:
+        for begin, end in (start + marked_runs(used[start:stop])).tolist():
             yield slice(begin, end)
-
-
-def _density(signal: str, values: Samples, runs: list[slice], rate_hz: float) -> Density:
-    """Average the runs' densities, each weighted by its rows."""
-    from scipy.signal import welch
-
-    longest = max((run.stop - run.start for run in runs), default=0)
-    if longest < SHORTEST_RUN:
-        return Density(signal, np.zeros(0), np.zeros(0))
-    size = min(LONGEST_RUN, longest)
-    total, rows = np.zeros(size // 2 + 1), 0
-    frequency = np.fft.rfftfreq(size, 1.0 / rate_hz)
-    for run in runs:
-        length = run.stop - run.start
-        if length >= SHORTEST_RUN:
-            _, density = welch(values[run], rate_hz, nperseg=min(size, length), nfft=size, detrend=False)
-            total, rows = total + length * density, rows + length
-    return Density(signal, frequency, total / rows)

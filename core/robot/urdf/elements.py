@@ -1,7 +1,7 @@
 """Read the XML of a URDF safely: one parser, and elements whose attributes are asked for by name.
 
 The text comes from outside: it is parsed by defusedxml, with document types and entities forbidden. Two slips
-that change nothing are corrected: blank lines before the declaration, and prefixes that nobody declared.
+that change nothing are corrected: blank lines before the declaration, and undeclared prefixes.
 """
 
 import re

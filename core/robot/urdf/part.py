@@ -1,4 +1,4 @@
-"""Choose the part of a URDF that is wanted: what hangs on a base link, up to the tips.
+"""Choose the part of a URDF that is wanted: what descends from a base link, up to the tips.
 
 Only joints of this part are judged. A floating base above the chosen one, or a loop elsewhere, does no harm.
 """
@@ -29,7 +29,7 @@ def choose_part(document: UrdfDocument, base_link: str | None, tips: Sequence[st
     Raises
     ------
     RobotError
-        If a link does not exist, a tip does not hang on the base, or the joints of the part form no tree.
+        If a link does not exist, a tip does not descend from the base, or the part is no tree.
     """
     for link in (base_link, *tips):
         if link is not None and link not in document.links:
@@ -92,7 +92,7 @@ def _check_tree(document: UrdfDocument, joints: Sequence[UrdfJoint]) -> None:
                 )
         if joint.child in parent_of:
             raise RobotError(
-                f"link {joint.child} hangs on two joints",
+                f"link {joint.child} has two parent joints",
                 evidence={"joints": [parent_of[joint.child].name, joint.name]},
                 remedy="a URDF is a tree: cut the loop at one joint",
             )
@@ -108,7 +108,7 @@ def _refuse_cycles(parent_of: dict[str, UrdfJoint]) -> None:
         while link in parent_of and link not in rooted:
             if link in path:
                 raise RobotError(
-                    "the joints run in a circle",
+                    "the joints form a loop",
                     evidence={"links": list(path)[:20]},
                     remedy="a URDF is a tree: cut the loop at one joint",
                 )
@@ -138,7 +138,7 @@ def _chain(joints: list[UrdfJoint], base: str, tip: str) -> set[str]:
     while link != base:
         if link not in above:
             raise RobotError(
-                "tip_link does not hang on base_link",
+                "tip_link does not descend from base_link",
                 evidence={"base_link": base, "tip_link": tip},
                 remedy="choose a tip that the base carries",
             )

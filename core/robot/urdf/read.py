@@ -63,7 +63,7 @@ def robot_from_urdf(
     text
         The expanded URDF (no xacro), at most 5 MB.
     base_link
-        Link that stands still; the root link by default. What does not hang on it is left out, and not
+        Link that stands still; the root link by default. What does not descend from it is left out, and not
         judged.
     tip_link
         Link at which a chain ends, or several (a text separates them by commas); the whole tree by default.
@@ -203,7 +203,7 @@ def _drive(joint: UrdfJoint, moving: dict[str, UrdfJoint]) -> _Drive:
             )
         follower = moving[follower.mimic.joint]
     raise RobotError(
-        "mimic joints follow each other in a circle",
+        "mimic joints form a loop",
         evidence={"joint": joint.name},
         remedy="let one of them have a coordinate of its own",
     )

@@ -6,13 +6,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from veritorque.core.log import preview as module
-from veritorque.core.log.preview import FEWEST_POINTS, preview, thin, thin_arrays
+from veritorque.core.log.preview import FEWEST_POINTS, preview, thin
 from veritorque.core.log.reader import log_from_arrays
 
 
 def walk(rows, traces=3, seed=1):
     steps = np.random.default_rng(seed).standard_normal((rows, traces))
     return np.arange(rows) / 250.0, np.cumsum(steps, axis=0)
+
+
+def thin_arrays(time, values, segments=None, *, points):
+    """Thin traces that are in memory."""
+    rows = segments or ((0, len(time)),)
+    return thin(lambda start, stop: (time[start:stop], values[start:stop]), rows, points=points)
 
 
 @st.composite

@@ -47,12 +47,12 @@ BAD = {
             + joint("a", "revolute", "base", "tip")
             + joint("b", "revolute", "tip", "base")
         ),
-        "in a circle",
+        "form a loop",
     ),
-    "a link on itself": (robot(PAIR + joint("a", "revolute", "tip", "tip")), "in a circle"),
+    "a link on itself": (robot(PAIR + joint("a", "revolute", "tip", "tip")), "form a loop"),
     "a link on two joints": (
         robot(PAIR + HINGE + joint("b", "revolute", "base", "tip")),
-        "hangs on two joints",
+        "has two parent joints",
     ),
     "an unknown parent": (robot(link("tip") + HINGE), "a names a parent link that does not exist"),
     "an unknown child": (robot(link("base") + HINGE), "a names a child link that does not exist"),
@@ -98,7 +98,7 @@ BAD = {
     ),
     "a mimic of itself": (
         robot(PAIR + joint("a", "revolute", "base", "tip", '<mimic joint="a"/>')),
-        "in a circle",
+        "form a loop",
     ),
     "65 moving joints": (
         robot(
@@ -151,7 +151,7 @@ def test_a_default_namespace_changes_nothing():
     [
         ({"base_link": "nowhere"}, "does not exist"),
         ({"tip_link": "nowhere"}, "does not exist"),
-        ({"base_link": "tip", "tip_link": "base"}, "does not hang on base_link"),
+        ({"base_link": "tip", "tip_link": "base"}, "does not descend from base_link"),
         ({"base_link": "tip"}, "no joint moves"),
         ({"gravity": (0.0, 0.0)}, "not three finite numbers"),
         ({"gravity": (0.0, 0.0, float("nan"))}, "not three finite numbers"),
