@@ -102,6 +102,8 @@ class JobKind(ABC, Generic[Options]):
     """Whether it is computed from logs, or from the robot alone."""
     takes_reference: ClassVar[bool] = False
     """Whether it has the option `reference`, an earlier result that logs are compared with."""
+    compares: ClassVar[bool] = False
+    """Whether it fits several estimators, which the option `compare` names, or one."""
     result: ClassVar[type[BaseModel]]
     """Model of its result document."""
     words: ClassVar[Words]

@@ -12,11 +12,13 @@ from typing import Any
 from ...core.errors import OptionError
 from .audit import Audit
 from .check import Check
+from .compare import Compare
 from .diagnose import Diagnose
 from .identify import Identify
 from .kind import JobKind
 
-KINDS: Mapping[str, JobKind[Any]] = {kind.name: kind for kind in (Identify(), Diagnose(), Check(), Audit())}
+_LISTED: tuple[JobKind[Any], ...] = (Identify(), Diagnose(), Check(), Audit(), Compare())
+KINDS: Mapping[str, JobKind[Any]] = {kind.name: kind for kind in _LISTED}
 RESULT_DOCUMENT: Any = reduce(or_, (kind.result for kind in KINDS.values()))
 """The model of a result document of any kind."""
 

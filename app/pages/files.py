@@ -95,6 +95,7 @@ def _tables() -> dict[str, str]:
             "hint": kind.words.hint,
             "takes_logs": kind.takes_logs,
             "takes_reference": kind.takes_reference,
+            "compares": kind.compares,
         }
         for kind in KINDS.values()
     ]

@@ -45,6 +45,39 @@ class Body(Open):
     axes: Annotated[list[list[float]] | None, about("their directions, as columns of a rotation")]
 
 
+class EstimationStep(Open):
+    """One step of an iterative estimator."""
+
+    change: Annotated[float, about("RMS change of the predicted torque, as a share of its RMS")]
+    cost: Annotated[float, about("weighted sum of squared residuals of the step's equations")]
+    share: Annotated[float, about("of the way to this estimate, where the next equations are written")]
+
+
+class Instruments(Open):
+    """What instruments tell of errors in the measured motion."""
+
+    statistic: Annotated[float, about("chi-square statistic of the difference to least squares")]
+    degrees: int
+    p_value: Annotated[float, about("of columns without errors: small where least squares is biased")]
+    largest: Annotated[float, about("largest difference of a parameter, in deviations of least squares")]
+    weakest: Annotated[float, about("least canonical correlation of instruments and columns, 0 to 1")]
+
+
+class Estimation(Open):
+    """By which estimator a robot was fitted, and how it ended."""
+
+    estimator: str
+    title: str
+    constrained: Annotated[bool, about("whether every step is solved under the constraints of consistency")]
+    converged: bool
+    stop_reason: str
+    steps: Annotated[list[EstimationStep], about("empty where the equations are the same at any robot")]
+    simulation: Annotated[
+        dict[str, JsonValue] | None, about("how the logs were replayed; null where nothing is simulated")
+    ]
+    instruments: Instruments | None
+
+
 class ModelName(Open):
     """Which model the parameters of a result are of."""
 
@@ -62,6 +95,7 @@ class PlainModel(Open):
     bodies: list[Body] = Field(default=[])
     feasibility: dict[str, JsonValue]
     solver: dict[str, JsonValue]
+    estimation: Estimation | None = None
     fit: list[JointFit]
     validation: list[JointFit]
     condition_number: float | None
@@ -88,6 +122,7 @@ class ResultDocument(Open):
     ] = Field(default=[])
     feasibility: dict[str, JsonValue]
     solver: dict[str, JsonValue]
+    estimation: Estimation | None = None
     fit: list[JointFit]
     validation: Annotated[list[JointFit], about("on held-out blocks")]
     held_out: list[HeldOutSpan] = Field(default=[])

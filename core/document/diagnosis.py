@@ -12,12 +12,13 @@ from ..extension.repair import repairs
 from ..extension.result import Extension
 from ..identification.reference_score import ReferenceScore
 from ..identification.result import Identification
-from ..simulation.multistep import Comparison, MultiStep
+from ..simulation.multistep import Comparison
 from .extended import answer_fields, extended_rows
 from .finding import finding_row, not_identifiable_row
 from .identification import held_out_spans, identification_document, score_rows
 from .model.identified import BaseValue, IdentifiedRobot
 from .model.model_file import model_document
+from .motion import position_errors
 from .numbers import plain
 from .payload import payload_row
 from .remainder import dependence_rows, spectrum_rows, unexplained
@@ -147,20 +148,9 @@ def _simulation(motion: Comparison | None, note: str) -> dict[str, object]:
     return {
         "held_out": True,
         "note": note,
-        "before": _position_errors(motion.before),
-        "after": _position_errors(motion.after),
+        "before": position_errors(motion.before),
+        "after": position_errors(motion.after),
         "improvement_percent": motion.gain_percent,
         "improvement_total_percent": motion.total_gain_percent,
         "interval_95": motion_intervals(motion),
-    }
-
-
-def _position_errors(found: MultiStep) -> dict[str, object]:
-    """Tabulate errors by horizon (rows) and joint (columns); `steady_rms` is that of keeping the velocity."""
-    return {
-        "horizons_s": found.horizons,
-        "windows": len(found.keys),
-        "position_rms": found.position_rms,
-        "velocity_rms": found.velocity_rms,
-        "steady_rms": found.still_rms,
     }

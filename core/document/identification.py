@@ -20,6 +20,7 @@ from ..signals.condition import Motion
 from ..validation.quality import quality
 from ..validation.scores import JointScore
 from .bodies import body_rows
+from .estimation import estimation_fields
 from .model.reference import write_factor
 from .model.terms import named_terms
 from .numbers import plain
@@ -70,6 +71,7 @@ def model_fields(found: Identification) -> dict[str, object]:
         "bodies": body_rows(found.base.model, found.estimate.standard),
         "feasibility": _feasibility(found),
         "solver": _solver(found),
+        "estimation": estimation_fields(found),
         "fit": score_rows(found.fit),
         "fit_total_percent": found.fit_total_percent,
         "validation": score_rows(found.validation),

@@ -3,6 +3,7 @@
 Apart from what estimates, so that a request can be checked where nothing is computed.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from ..errors import OptionError
@@ -15,6 +16,44 @@ PULL = 0.02
 """Weight of the pull towards the prior, in units of chi^2 per squared scale. A parameter that lies one scale
 from the prior is pulled by a fiftieth of a deviation at most, however long the log; what the motion leaves
 open goes to the prior all the same."""
+
+
+@dataclass(frozen=True)
+class SimulationOptions:
+    """Choose how a log is replayed for estimators that simulate."""
+
+    bandwidth_hz: float = 5.0
+    """Bandwidth of the controller that pulls the simulated motion to the measured one. The measured torque is
+    played as it is; what the controller adds is what the model lacks."""
+    substeps: int | None = None
+    """Steps of the simulation per sample; if not given, as many as make a step no longer than 1 ms."""
+
+    def __post_init__(self) -> None:
+        """Refuse what is no controller, or no step."""
+        if not 0.01 <= self.bandwidth_hz <= 100.0 or not 1 <= (self.substeps or 1) <= 100:
+            raise OptionError(
+                "the options of the simulation are not valid",
+                evidence={"bandwidth_hz": self.bandwidth_hz, "substeps": self.substeps},
+                remedy="give a bandwidth from 0.01 to 100 Hz, and 1 to 100 steps per sample",
+            )
+
+
+@dataclass(frozen=True)
+class IterationOptions:
+    """Choose when an iterative estimator ends: after `most` steps, or when the torque changes by less."""
+
+    most: int = 10
+    tolerance: float = 1e-3
+    """RMS change of the predicted torque over its RMS."""
+
+    def __post_init__(self) -> None:
+        """Refuse no step at all, and a tolerance that nothing meets or everything does."""
+        if not 1 <= self.most <= 100 or not 1e-9 <= self.tolerance <= 0.1:
+            raise OptionError(
+                "the options of the iteration are not valid",
+                evidence={"most": self.most, "tolerance": self.tolerance},
+                remedy="give 1 to 100 steps and a tolerance from 1e-9 to 0.1",
+            )
 
 
 @dataclass(frozen=True)
@@ -33,6 +72,8 @@ class EstimateOptions:
     entropy: float = 0.0
     """Weights of the squared and of the entropic distance to the prior."""
     bounds: Bounds = field(default_factory=Bounds)
+    simulation: SimulationOptions = field(default_factory=SimulationOptions)
+    iteration: IterationOptions = field(default_factory=IterationOptions)
 
     @property
     def method(self) -> Estimator:
@@ -74,10 +115,18 @@ class EstimateOptions:
 
     def _without_effect(self) -> list[str]:
         """List the options that have been set and would not act on this estimator."""
-        acts = {
+        acts: Mapping[str, bool] = {
             "bounds": self.method.feasible,
             "entropy": self.method.feasible,
             "robust": self.method.row_weights,
+            "simulation": self.method.iterative,
+            "iteration": self.method.iterative,
         }
-        is_set = {"bounds": self.bounds != Bounds(), "entropy": self.entropy > 0.0, "robust": self.robust}
+        is_set = {
+            "bounds": self.bounds != Bounds(),
+            "entropy": self.entropy > 0.0,
+            "robust": self.robust,
+            "simulation": self.simulation != SimulationOptions(),
+            "iteration": self.iteration != IterationOptions(),
+        }
         return [name for name in acts if is_set[name] and not acts[name]]

@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import BlockKey, Indices, JointVector
+from ..arrays import BlockKey, Indices, JointVector, Parameters
 from ..errors import ExcitationError
 from ..reduction.base import BaseModel
 from ..regressor.columns import ColumnPlan
@@ -14,9 +14,12 @@ from ..regressor.factor import Factor, Weigh
 from ..regressor.memory import LaggedProducts
 from ..regressor.observe import Observation, observe
 from ..signals.condition import Motion
+from ..simulation.mechanism import mechanism_of
+from ..simulation.replay import Replay, replay
 from .gaussian_prior import GaussianPrior
+from .options import SimulationOptions
 from .reversals import reversal_weights
-from .system import ordinary
+from .system import INSTRUMENTAL, LEAST_SQUARES, Criterion, ordinary
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +59,10 @@ class ObservedProblem:
     """Whether rows beside a reversal are weighted by their own noise."""
     weights: JointVector | None = None
     """Weight of these rows per joint; None while it is not chosen, and for one."""
+    simulation: SimulationOptions = field(default_factory=SimulationOptions)
+    """How the motions are replayed, where columns of simulated motion are asked for."""
+    criterion: Criterion = LEAST_SQUARES
+    """How the factors become equations."""
 
     @property
     def size(self) -> int:
@@ -111,6 +118,24 @@ class ObservedProblem:
     def weighted(self, weigh: Weigh) -> "ObservedProblem":
         """Pass over the motions again with every row weighted."""
         return replace(self, observation=self.problem.observed(weigh=weigh))
+
+    def simulated(self, at: Parameters) -> "ObservedProblem":
+        """Take the columns of the motion that a robot of these parameters makes when a log is replayed."""
+        problem = self.problem
+        moved = observe(problem.plan, self._replayed(at), held_out=problem.held_out)
+        return replace(self, observation=moved)
+
+    def instrumented(self, at: Parameters) -> "ObservedProblem":
+        """Put those columns before the measured ones, as instruments."""
+        problem = self.problem
+        beside = observe(
+            problem.plan, problem.motions, held_out=problem.held_out, instruments=self._replayed(at)
+        )
+        return replace(self, observation=beside, criterion=INSTRUMENTAL)
+
+    def _replayed(self, at: Parameters) -> tuple[Replay, ...]:
+        mechanism, asked = mechanism_of(self.problem.base.model, at), self.simulation
+        return replay(mechanism, self.problem.motions, asked.bandwidth_hz, asked.substeps)
 
     def check_excitation(self) -> None:
         """Refuse a motion in which no inertia takes any torque: every joint keeps its speed.

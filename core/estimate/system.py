@@ -4,7 +4,8 @@ Joints differ in noise by orders of magnitude, so the default weighs each joint 
 IDIM-LS practice does. Source: Gautier 1997; Khalil & Dombre (2002), ch. 12.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
@@ -32,6 +33,11 @@ class System:
     """Number of equations it stands for."""
     noise: JointVector
     """Standard deviation per joint that the rows were divided by, N m; ones for an unweighted fit."""
+    criterion: "Criterion" = field(default_factory=lambda: LEAST_SQUARES)
+    """How the rows of all joints became these equations."""
+    carried: Matrix | None = None
+    """Turns products with the instruments' rows into products with these equations; None where they are the
+    log's own."""
 
     def cost(self, base: BaseParameters) -> float:
         """Give the weighted sum of squared residuals."""
@@ -62,33 +68,96 @@ class System:
 
     def solved(self) -> BaseParameters:
         """Give the unconstrained optimum of smallest norm, should the motion leave directions open."""
-        scale = column_scale(self.triangle)
-        scaled, *_ = np.linalg.lstsq(self.triangle / scale, self.target, rcond=RANK_TOLERANCE)
-        return np.asarray(scaled / scale)
+        return np.asarray(solved_by(self.triangle, self.target[:, None])[:, 0])
+
+
+@runtime_checkable
+class Criterion(Protocol):
+    """Say what the joints' rows are, and how all of them together become equations."""
+
+    def width(self, base: int) -> int:
+        """Count the columns of all joints' rows together."""
+
+    def place(self, columns: Indices, base: int) -> Indices:
+        """Give the columns at which a joint's own stand among them."""
+
+    def system(self, whole: Matrix, rows: int, noise: JointVector) -> System:
+        """Write the equations of the triangular factor of all rows, square."""
+
+
+@dataclass(frozen=True)
+class LeastSquares:
+    """Minimise ||y - W base|| over rows [W y]."""
+
+    def width(self, base: int) -> int:
+        """Count the columns of all joints' rows together."""
+        return base + 1
+
+    def place(self, columns: Indices, base: int) -> Indices:
+        """Give the columns at which a joint's own stand among them."""
+        return np.append(columns, base)
+
+    def system(self, whole: Matrix, rows: int, noise: JointVector) -> System:
+        """Write the equations of the triangular factor of all rows, square."""
+        triangle, target = _zero_unexcited(whole[:-1, :-1]), whole[:-1, -1]
+        return System(triangle, target, float(whole[-1, -1] ** 2), rows, noise)
+
+
+@dataclass(frozen=True)
+class Instrumental:
+    """Solve Z'(y - W base) = 0 over rows [Z W y].
+
+    As least squares it minimises the part of the residual that the instruments span, ||Rzw base - rzy||, the
+    blocks being those of the rows' triangular factor. Source: Soderstrom & Stoica, Instrumental Variable
+    Methods (1983).
+    """
+
+    def width(self, base: int) -> int:
+        """Count the columns of all joints' rows together."""
+        return 2 * base + 1
+
+    def place(self, columns: Indices, base: int) -> Indices:
+        """Give the columns at which a joint's own stand among them."""
+        return np.concatenate([columns, base + columns, [2 * base]])
+
+    def system(self, whole: Matrix, rows: int, noise: JointVector) -> System:
+        """Write the equations of the triangular factor of all rows, square."""
+        base = len(whole) // 2
+        triangle, target = _zero_unexcited(whole[:base, base:-1]), whole[:base, -1]
+        carried = solved_by(whole[:base, :base], triangle).T
+        system = System(triangle, target, 0.0, rows, noise, criterion=self, carried=carried)
+        left = whole[base:, -1] - whole[base:, base:-1] @ system.solved()
+        return replace(system, rest=float(left @ left))
+
+
+LEAST_SQUARES: Criterion = LeastSquares()
+INSTRUMENTAL: Criterion = Instrumental()
 
 
 def stacked(
-    factors: tuple[Factor, ...], columns_of: tuple[Indices, ...], base: int, noise: JointVector
+    factors: tuple[Factor, ...],
+    columns_of: tuple[Indices, ...],
+    base: int,
+    noise: JointVector,
+    criterion: Criterion = LEAST_SQUARES,
 ) -> System:
     """Stack the joints' factors, each divided by its noise."""
-    rows = [
-        _widened(factor, columns, base) / sigma
-        for factor, columns, sigma in zip(factors, columns_of, noise, strict=True)
-    ]
-    rows.append(np.zeros((base + 2, base + 1)))  # so that few rows are made triangular and square too
-    whole = Factor.of(np.vstack(rows)).triangle
-    inner = whole[:base]
-    rest = whole[base:, -1]
-    return System(
-        triangle=_zero_unexcited(inner[:, :-1]),
-        target=inner[:, -1],
-        rest=float(rest @ rest),
-        rows=sum(factor.rows for factor in factors),
-        noise=noise,
-    )
+    width = criterion.width(base)
+    rows = [np.zeros((width, width))]  # so that few rows are made triangular and square too
+    for factor, columns, sigma in zip(factors, columns_of, noise, strict=True):
+        wide = np.zeros((len(factor.triangle), width))
+        wide[:, criterion.place(columns, base)] = factor.triangle / sigma
+        rows.append(wide)
+    whole = Factor.of(np.vstack([*rows, np.zeros((1, width))])).triangle
+    return criterion.system(whole, sum(factor.rows for factor in factors), noise)
 
 
-def ordinary(factors: tuple[Factor, ...], columns_of: tuple[Indices, ...], base: int) -> System:
+def ordinary(
+    factors: tuple[Factor, ...],
+    columns_of: tuple[Indices, ...],
+    base: int,
+    criterion: Criterion = LEAST_SQUARES,
+) -> System:
     """Stack without weights.
 
     Raises
@@ -103,14 +172,20 @@ def ordinary(factors: tuple[Factor, ...], columns_of: tuple[Indices, ...], base:
             evidence={"equations": rows, "parameters": base},
             remedy="record a longer motion, or keep more samples with a smaller decimation",
         )
-    return stacked(factors, columns_of, base, np.ones(len(factors)))
+    return stacked(factors, columns_of, base, np.ones(len(factors)), criterion)
 
 
-def weighted(factors: tuple[Factor, ...], columns_of: tuple[Indices, ...], base: int) -> System:
+def weighted(
+    factors: tuple[Factor, ...],
+    columns_of: tuple[Indices, ...],
+    base: int,
+    criterion: Criterion = LEAST_SQUARES,
+) -> System:
     """Stack with each joint divided by the RMS of its own residual, in two rounds from the unweighted fit."""
-    system = ordinary(factors, columns_of, base)
+    system = ordinary(factors, columns_of, base, criterion)
     for _ in range(_REWEIGHTINGS):
-        system = stacked(factors, columns_of, base, joint_noise(factors, columns_of, system.solved()))
+        noise = joint_noise(factors, columns_of, system.solved())
+        system = stacked(factors, columns_of, base, noise, criterion)
     return system
 
 
@@ -133,6 +208,20 @@ def joint_noise(
     )
 
 
+def solved_by(matrix: Matrix, right: np.ndarray) -> np.ndarray:
+    """Solve matrix x = right, with the smallest x where columns of the matrix leave directions open.
+
+    Examples
+    --------
+    >>> solved_by(np.array([[2.0, 1.0], [0.0, 4.0]]), np.array([[4.0], [8.0]])).round(12)
+    array([[1.],
+           [2.]])
+    """
+    scale = column_scale(matrix)
+    solution, *_ = np.linalg.lstsq(matrix / scale, right, rcond=RANK_TOLERANCE)
+    return np.asarray(solution / scale[:, None])
+
+
 def column_scale(matrix: Matrix) -> Vector:
     """Give the norm of every column, one where it is zero."""
     norms = np.linalg.norm(matrix, axis=0)
@@ -150,10 +239,3 @@ def _zero_unexcited(columns: Matrix) -> Matrix:
     """
     norms = np.linalg.norm(columns, axis=0)
     return np.where(norms > ROUNDING * norms.max(initial=0.0), columns, 0.0)
-
-
-def _widened(factor: Factor, columns: Indices, base: int) -> Matrix:
-    wide = np.zeros((len(factor.triangle), base + 1))
-    wide[:, columns] = factor.triangle[:, :-1]
-    wide[:, -1] = factor.triangle[:, -1]
-    return wide

@@ -1,7 +1,7 @@
 """Fit one model to measured motion, and judge the fit by every measure there is."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from ..arrays import BaseParameters
 from ..estimate.constraints import default_prior
@@ -15,12 +15,14 @@ from ..log.model import JointLog
 from ..numerics.block_bootstrap import block_draws
 from ..numerics.mapping import SERIAL, Mapper
 from ..precision.bootstrap import bootstrap
+from ..precision.endogeneity import endogeneity
 from ..precision.essential import essential_parameters
 from ..precision.inference import infer
 from ..regressor.observe import Observation, torque_scales
 from ..validation.excitation import excitation
 from ..validation.mass_matrix import check_mass_matrix, pseudo_inertia_eigenvalues, workspace
 from ..validation.scores import reversals_percent, scores, total_percent
+from .convergence import Convergence, converge
 from .options import IdentifyOptions
 from .result import Identification
 
@@ -39,8 +41,10 @@ class Fit:
     observation: Observation
     """The equations of all blocks, rows as they were measured."""
     step: Step
-    """The equations that were solved."""
+    """The equations that were solved, without a prior."""
     estimate: Estimate
+    convergence: Convergence
+    """How an iterative estimator ended."""
 
 
 def fit(
@@ -50,12 +54,20 @@ def fit(
     if observation is None:
         observation = problem.observed(lambda done: tell("observe", 0.3 + 0.3 * done))
     tell("estimate", 0.6)
-    data = ObservedProblem(problem, observation, options.estimate.robust, options.estimate.weigh_reversals)
+    asked = options.estimate
+    data = ObservedProblem(
+        problem, observation, asked.robust, asked.weigh_reversals, simulation=asked.simulation
+    )
     data.check_excitation()
-    step = options.estimate.method.equations(None, data)
-    step = replace(step, system=step.system.with_prior(problem.prior))
     prior = default_prior(problem.base.model, torque_scales(observation, data.fitted), problem.sizes)
-    return Fit(problem, observation, step, estimate(problem.base, step.system, prior, options.estimate))
+
+    def solve(step: Step) -> Estimate:
+        return estimate(problem.base, step.system.with_prior(problem.prior), prior, asked)
+
+    step, found, convergence = converge(
+        asked.method, data, solve, asked.iteration, lambda done: tell("simulate", 0.6 + 0.1 * done)
+    )
+    return Fit(problem, observation, step, found, convergence)
 
 
 def judge(
@@ -63,7 +75,8 @@ def judge(
 ) -> Identification:
     """Judge a fit: how well every parameter is known, and how well held-out blocks are predicted."""
     problem, observation, answer = found.problem, found.observation, found.estimate
-    system, data, prior = found.step.system, found.step.data, answer.prior
+    own, data, prior = found.step.system, found.step.data, answer.prior
+    system = own.with_prior(problem.prior)
     base, model = problem.base, problem.base.model
     fitted, held = observation.parts(problem.held_out)
     tell("assess", 0.7)
@@ -109,4 +122,10 @@ def judge(
         widths=model.smoothing_widths,
         seed=options.bootstrap.seed,
         held_out=problem.held_out,
+        estimator=options.estimate.estimator,
+        convergence=found.convergence,
+        simulation=options.estimate.simulation,
+        endogeneity=None
+        if own.carried is None
+        else endogeneity(own, data.factors, data.memory, data.columns_of),
     )

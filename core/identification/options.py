@@ -12,7 +12,7 @@ import numpy as np
 from ..dynamics.model import STANDARD_TERMS
 from ..errors import OptionError
 from ..estimate.constraints import Bounds, CentreBox, CentreEllipsoid, LinkSize
-from ..estimate.options import EstimateOptions
+from ..estimate.options import EstimateOptions, IterationOptions, SimulationOptions
 from ..fields import Fields, scalar_meanings
 from ..signals.recipe import FilterOptions
 from ..validation.holdout import HoldOut
@@ -97,6 +97,8 @@ _SECTIONS = {
     "bootstrap": scalar_meanings(BootstrapOptions),
     "prior": PRIOR_FIELDS,
     "bounds": BOUND_FIELDS,
+    "simulation": scalar_meanings(SimulationOptions),
+    "iteration": scalar_meanings(IterationOptions),
 }
 _SCALARS = {
     "estimator": "the name of an estimator",
@@ -145,6 +147,12 @@ def parse_diagnose_options(options: Mapping[str, object] | None) -> IdentifyOpti
     40
     """
     parsed = _options(options, OPTION_FIELDS | REFERENCE_FIELD, DIAGNOSIS_HOLD_OUT)
+    if parsed.estimate.method.iterative:
+        raise OptionError(
+            f"a diagnosis cannot be fitted by {parsed.estimate.estimator}, which simulates the model",
+            evidence={"pointer": "/options/estimator", "given": parsed.estimate.estimator},
+            remedy="leave the estimator out; causes add terms that are not simulated sample by sample",
+        )
     held = parsed.validation
     if not held.logs and not round(held.fraction * held.blocks):
         raise OptionError(
@@ -164,7 +172,13 @@ def _options(
     return top.record(
         IdentifyOptions(
             filter=inner["filter"].record(FilterOptions()),
-            estimate=top.record(EstimateOptions(), bounds=_bounds(inner["bounds"]), **prior),
+            estimate=top.record(
+                EstimateOptions(),
+                bounds=_bounds(inner["bounds"]),
+                simulation=inner["simulation"].record(SimulationOptions()),
+                iteration=inner["iteration"].record(IterationOptions()),
+                **prior,
+            ),
             validation=_validation(inner["validation"], hold_out),
             bootstrap=inner["bootstrap"].record(BootstrapOptions()),
             terms=_terms(top),

@@ -5,7 +5,9 @@ from dataclasses import dataclass
 from ..arrays import BlockKey, JointVector, Matrix
 from ..estimate.estimate import Estimate
 from ..estimate.feasibility import Feasibility
+from ..estimate.options import SimulationOptions
 from ..log.model import JointLog
+from ..precision.endogeneity import Endogeneity
 from ..precision.essential import Essential
 from ..precision.inference import Inference
 from ..reduction.base import BaseModel
@@ -15,6 +17,7 @@ from ..signals.condition import Motion
 from ..validation.excitation import ExcitationScore
 from ..validation.mass_matrix import MassMatrixCheck
 from ..validation.scores import JointScore
+from .convergence import Convergence
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +52,14 @@ class Identification:
     widths: tuple[float, ...]
     seed: int
     held_out: frozenset[BlockKey]
+    estimator: str
+    """Its name in the registry."""
+    convergence: Convergence
+    """How it ended, where it takes more than one step."""
+    simulation: SimulationOptions
+    """How the logs were replayed, where it simulates."""
+    endogeneity: Endogeneity | None
+    """What instruments tell of errors in the measured motion; None where there are none."""
 
     @property
     def feasible(self) -> bool:

@@ -47,7 +47,8 @@ def bootstrap(
     def fit_draw(indices: Indices) -> BaseParameters | None:
         weights = np.bincount(indices, minlength=len(blocks)).astype(float)
         try:
-            return solve(_system(np.tensordot(weights, products, axes=1), system))
+            product = np.tensordot(weights, products, axes=1)
+            return solve(system.criterion.system(_triangle(product), system.rows, system.noise))
         except SolverError:
             return None
 
@@ -59,20 +60,18 @@ def bootstrap(
 def _products(
     blocks: tuple[tuple[Factor, ...], ...], columns_of: tuple[Indices, ...], system: System
 ) -> np.ndarray:
-    size = system.triangle.shape[1] + 1
+    base, criterion = system.triangle.shape[1], system.criterion
+    size = criterion.width(base)
     products = np.zeros((len(blocks), size, size))
     for total, block in zip(products, blocks, strict=True):
         for factor, columns, noise in zip(block, columns_of, system.noise, strict=True):
-            index = np.append(columns, size - 1)
+            index = criterion.place(columns, base)
             total[np.ix_(index, index)] += factor.triangle.T @ factor.triangle / noise**2
     return products
 
 
-def _system(product: Matrix, like: System) -> System:
+def _triangle(product: Matrix) -> Matrix:
+    """Give the triangular factor of rows of which this is the product with themselves."""
     values, vectors = np.linalg.eigh(product)
     rows = np.sqrt(np.maximum(values, 0.0))[:, None] * vectors.T
-    triangle = Factor.of(np.vstack([rows, np.zeros((1, len(product)))])).triangle
-    size = len(product) - 1
-    return System(
-        triangle[:size, :-1], triangle[:size, -1], float(triangle[size, -1] ** 2), like.rows, like.noise
-    )
+    return Factor.of(np.vstack([rows, np.zeros((1, len(product)))])).triangle

@@ -3,7 +3,8 @@
 For independent residuals of variance sigma^2 = ||rho||^2 / (n - d) the covariance is sigma^2 (W'W)^-1 and %P
 = 100 sqrt(diag) / |chi|; the seed's equation (10) omits (W'W)^-1. Filtered samples are not independent, so
 the covariance is the sandwich (W'W)^-1 W'V W (W'W)^-1 with V the residual's own autocovariance: bread, meat,
-bread. Sources: Khalil & Dombre (2002), ch. 12; Newey & West 1987.
+bread. With instruments Z the meat is that of Z, carried to the equations that are solved. Sources: Khalil &
+Dombre (2002), ch. 12; Newey & West 1987.
 """
 
 from dataclasses import dataclass
@@ -37,7 +38,7 @@ class Inference:
     @property
     def bread(self) -> SquareMatrix:
         """Give the inverse of W'W within the excited directions."""
-        return _bread(self.information)
+        return inverse_information(self.information)
 
     @property
     def covariance(self) -> SquareMatrix:
@@ -89,22 +90,30 @@ def infer(
     """
     information = system.triangle.T @ system.triangle
     size = len(information)
-    bread, factors = _bread(information), np.ones(len(memory))
+    bread, factors = inverse_information(information), np.ones(len(memory))
     covariance, meat = np.zeros((size, size)), np.zeros((size, size))
     for _ in range(_ROUNDS):
         meat = np.zeros((size, size))
-        if prior is not None:
-            known = prior.rows.shape[1]
-            meat[:known, :known] = prior.rows.T @ prior.rows
         for joint, (products, columns, noise) in enumerate(
             zip(memory, columns_of, system.noise, strict=True)
         ):
             index = np.ix_(columns, columns)
             autocovariance = _true_autocovariance(products, base[columns], covariance[index])
-            meat[index] += products.spread(autocovariance) / noise**4
+            meat[index] += _own_spread(products, autocovariance) / noise**4
             factors[joint] = _memory_factor(autocovariance)
+        if system.carried is not None:
+            meat = system.carried @ meat @ system.carried.T
+        if prior is not None:
+            known = prior.rows.shape[1]
+            meat[:known, :known] += prior.rows.T @ prior.rows
         covariance = _sandwich(bread, meat)
     return Inference(information, meat, _open_share(system.triangle), factors)
+
+
+def _own_spread(products: LaggedProducts, autocovariance: Vector) -> SquareMatrix:
+    """Give Z'V Z where there are instruments, and W'V W where there are none."""
+    spread = products.spread(autocovariance)
+    return spread[: products.instruments, : products.instruments] if products.instruments else spread
 
 
 def _true_autocovariance(
@@ -115,7 +124,7 @@ def _true_autocovariance(
     A fit takes sum_t w(t)' C w(t + l) out of lag l, C being the covariance of what was fitted; for
     independent samples and lag 0 that is the n - d of the textbooks.
     """
-    taken = np.einsum("lij,ij->l", products.products[:, :-1, :-1], covariance)
+    taken = np.einsum("lij,ij->l", products.of_regressor, covariance)
     return np.asarray((products.autocovariance(values) + taken) / max(products.rows, 1))
 
 
@@ -153,7 +162,7 @@ def subset(precision: Inference, chosen: Indices, triangle: Matrix) -> Inference
     )
 
 
-def _bread(information: SquareMatrix) -> SquareMatrix:
+def inverse_information(information: SquareMatrix) -> SquareMatrix:
     """Give the inverse within the directions in which the matrix is not zero."""
     scale, values, vectors = _excited(information)
     return np.asarray(vectors / values @ vectors.T / np.outer(scale, scale))

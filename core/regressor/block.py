@@ -11,7 +11,7 @@ import numpy as np
 
 from ..arrays import JointVector, Rows, SampleMask, Samples
 from .columns import ColumnPlan
-from .factor import Factor
+from .factor import INSTRUMENT, REGRESSOR, TARGET, Factor, Groups
 from .memory import LaggedProducts
 
 
@@ -59,16 +59,25 @@ class Tail:
         return Tail(self.rows[-LaggedProducts.LAGS :], self.turning[-LaggedProducts.LAGS :])
 
 
+def groups_of(plan: ColumnPlan, *, instruments: bool) -> tuple[Groups, ...]:
+    """Give, per joint, what the columns of its rows are: [w y], or [z w y] with instruments."""
+    widths = [len(columns) for columns in plan.columns_of]
+    return tuple(
+        (*(((INSTRUMENT, width),) if instruments else ()), (REGRESSOR, width), (TARGET, 1))
+        for width in widths
+    )
+
+
 class OpenBlock:
     """Gather a block's rows."""
 
-    def __init__(self, plan: ColumnPlan, start: float) -> None:
-        """Start without rows, at a time in s."""
+    def __init__(self, groups: tuple[Groups, ...], start: float) -> None:
+        """Start without rows, at a time in s; `groups` are those of every joint's columns."""
         self.start = self.end = start
-        self.moving = [Factor.empty(len(columns) + 1) for columns in plan.columns_of]
+        self.moving = [Factor.empty(sum(dict(own).values()), own) for own in groups]
         self.turning = list(self.moving)
-        self.low = np.full(len(plan.columns_of), np.inf)
-        self.high = np.full(len(plan.columns_of), -np.inf)
+        self.low = np.full(len(groups), np.inf)
+        self.high = np.full(len(groups), -np.inf)
 
     def take(self, joint: int, parts: tuple[Rows, Rows], torque: Samples) -> None:
         """Take a joint's moving rows and those beside a reversal."""

@@ -20,7 +20,7 @@ Weigh = Callable[[list[FilteredRows]], list[Weights]]
 """Gives, per joint, the weights of a tile's rows."""
 Groups = tuple[tuple[str, int], ...]
 """Names and widths of groups of columns, from left to right."""
-REGRESSOR, TARGET = "regressor", "target"
+INSTRUMENT, REGRESSOR, TARGET = "instrument", "regressor", "target"
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,11 +3,11 @@
 For filtered samples the residuals are not independent, and the textbook variance is wrong. The variance of a
 least-squares estimate needs W'V W with V the residual's covariance; with V Toeplitz over a few lags that is a
 sum of lagged products G_l = sum_t w(t) w(t + l)', which accumulate like any other statistic. With the torque
-as last column of w the same products give the residual's autocovariance for any parameters. Source: Newey &
-West 1987, in its homoskedastic form.
+as last column of w the same products give the residual's autocovariance for any parameters. Where instruments
+z stand before w, it is Z'V Z that is wanted. Source: Newey & West 1987, in its homoskedastic form.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -17,7 +17,7 @@ from ..arrays import Indices, Matrix, Parameters, Rows, SampleMask, Vector
 
 @dataclass(frozen=True, eq=False)
 class LaggedProducts:
-    """Hold G_0 .. G_LAGS of one joint's rows [w y] and their number.
+    """Hold G_0 .. G_LAGS of one joint's rows [w y], or [z w y], and their number.
 
     Rows that are not used must come in as zeros.
     """
@@ -25,11 +25,13 @@ class LaggedProducts:
     LAGS: ClassVar[int] = 12
     products: np.ndarray
     rows: int
+    instruments: int = 0
+    """Number of columns of z."""
 
     @classmethod
-    def empty(cls, columns: int) -> "LaggedProducts":
+    def empty(cls, columns: int, instruments: int = 0) -> "LaggedProducts":
         """Start with no rows."""
-        return cls(np.zeros((cls.LAGS + 1, columns, columns)), 0)
+        return cls(np.zeros((cls.LAGS + 1, columns, columns)), 0, instruments)
 
     def extended(self, before: Rows, rows: Rows, used: int) -> "LaggedProducts":
         """Take rows in, of which `used` are not zero, that follow the last rows of `before`."""
@@ -39,23 +41,28 @@ class LaggedProducts:
             begin = max(len(before), lag)
             if begin < len(joined):
                 products[lag] += joined[begin - lag : len(joined) - lag].T @ joined[begin:]
-        return LaggedProducts(products, self.rows + used)
+        return replace(self, products=products, rows=self.rows + used)
 
     def merged(self, other: "LaggedProducts") -> "LaggedProducts":
         """Join the products of two stretches."""
-        return LaggedProducts(self.products + other.products, self.rows + other.rows)
+        return replace(self, products=self.products + other.products, rows=self.rows + other.rows)
 
     def over(self, columns: Indices) -> "LaggedProducts":
         """Keep the products of some of the columns; the last of those given is the torque's."""
         return LaggedProducts(self.products[:, columns[:, None], columns], self.rows)
 
+    @property
+    def of_regressor(self) -> np.ndarray:
+        """Give the products of w with itself at lags 0..LAGS."""
+        return self.products[:, self.instruments : -1, self.instruments : -1]
+
     def autocovariance(self, parameters: Parameters) -> Vector:
-        """Sum the residual's products at lags 0..LAGS, for these parameters over the rows' columns."""
-        weights = np.append(-parameters, 1.0)
+        """Sum the residual's products at lags 0..LAGS, for these parameters over the columns of w."""
+        weights = np.concatenate([np.zeros(self.instruments), -parameters, [1.0]])
         return np.array([weights @ product @ weights for product in self.products])
 
     def spread(self, autocovariance: Vector) -> Matrix:
-        """Give W'V W for noise of this autocovariance, tapered after Bartlett so that V is positive."""
+        """Give [Z W]'V [Z W] for this autocovariance, tapered after Bartlett so that V is positive."""
         width = len(autocovariance)
         total = autocovariance[0] * self.products[0][:-1, :-1]
         for lag in range(1, min(width, self.LAGS + 1)):
@@ -109,7 +116,7 @@ class TurningProducts:
     def discounted(self, whole: LaggedProducts, weight: float) -> LaggedProducts:
         """Give the lagged products of all rows, those beside a reversal times a weight."""
         less = (1.0 - weight) * self.one + (1.0 - weight**2) * self.both
-        return LaggedProducts(whole.products - less, whole.rows)
+        return replace(whole, products=whole.products - less)
 
 
 def _products(rows: Rows, partners: np.ndarray) -> np.ndarray:

@@ -8,23 +8,35 @@ choose from.
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
-from typing import TypeVar
+from itertools import repeat
+from typing import Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
-from ..arrays import BaseParameters, BlockKey, Indices, JointSeries, JointVector, Samples
+from ..arrays import BlockKey, Indices, JointSeries, JointVector
 from ..errors import OptionError
-from ..signals.condition import Motion
 from ..signals.parallel import Tile
-from .block import Block, OpenBlock, Tail
+from .block import Block, OpenBlock, Tail, groups_of
 from .columns import ColumnPlan
-from .factor import Factor, FilteredRows, Weigh
+from .factor import INSTRUMENT, Factor, FilteredRows, Weigh
 from .memory import LaggedProducts, TurningProducts
 
 _POSITIONS_PER_BLOCK = 32
 _UNMARKED = np.zeros(0, dtype=bool)
 Products = TypeVar("Products")
 Progress = Callable[[float], None]
+
+
+@runtime_checkable
+class Tiled(Protocol):
+    """Give motion tile by tile, as it was measured or otherwise known."""
+
+    @property
+    def kept(self) -> int:
+        """Count the decimated samples."""
+
+    def tiles(self) -> Iterator[Tile]:
+        """Go through the motion once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +56,8 @@ class Observation:
     """A sample of the positions along the motions, rad or m."""
     kept: int
     """Number of decimated samples; a joint's factors have fewer rows where instants were unusable for it."""
+    instruments: bool = False
+    """Whether the rows are [z w y]: with instruments before the columns."""
 
     def joint_factors(self, chosen: tuple[int, ...] | None = None) -> tuple[Factor, ...]:
         """Merge the factors of the chosen blocks (all by default), one per joint."""
@@ -67,8 +81,8 @@ class Observation:
 
     def _merged(self, blocks: list[tuple[Factor, ...]]) -> tuple[Factor, ...]:
         return tuple(
-            Factor.empty(len(columns) + 1).merged(*(block[joint] for block in blocks))
-            for joint, columns in enumerate(self.columns_of)
+            Factor.empty(sum(dict(groups).values()), groups).merged(*(block[joint] for block in blocks))
+            for joint, groups in enumerate(groups_of(self.plan, instruments=self.instruments))
         )
 
     def parts(self, held_out: frozenset[BlockKey]) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -132,11 +146,12 @@ def _merged_by_joint(
 
 def observe(
     plan: ColumnPlan,
-    motions: tuple[Motion, ...],
+    motions: tuple[Tiled, ...],
     *,
     held_out: frozenset[BlockKey] = frozenset(),
     progress: Progress | None = None,
     weigh: Weigh | None = None,
+    instruments: tuple[Tiled, ...] = (),
 ) -> Observation:
     """Accumulate the equations of all motions.
 
@@ -150,22 +165,32 @@ def observe(
         Called with the fraction done.
     weigh
         For robust fits: gives the weights of a tile's rows.
+    instruments
+        The same motions otherwise known, tile by tile: their columns stand before the motions' own. None by
+        default.
     """
-    gathered = [_Gathering(plan, weigh, held_out, number) for number in range(len(motions))]
-    total = _take_all(motions, gathered, progress)
+    beside = bool(instruments)
+    gathered = [_Gathering(plan, weigh, held_out, number, beside=beside) for number in range(len(motions))]
+    total = _take_all(motions, instruments, gathered, progress)
     blocks = tuple(block for gathering in gathered for block in gathering.blocks())
     memory = _merged_by_joint(LaggedProducts.merged, [gathering.memory for gathering in gathered])
     turning = _merged_by_joint(TurningProducts.merged, [gathering.turning for gathering in gathered])
     positions = np.vstack([position for gathering in gathered for position in gathering.positions])
-    return Observation(plan, blocks, plan.columns_of, memory, turning, positions, total)
+    return Observation(plan, blocks, plan.columns_of, memory, turning, positions, total, beside)
 
 
-def _take_all(motions: tuple[Motion, ...], gathered: list["_Gathering"], progress: Progress | None) -> int:
+def _take_all(
+    motions: tuple[Tiled, ...],
+    instruments: tuple[Tiled, ...],
+    gathered: list["_Gathering"],
+    progress: Progress | None,
+) -> int:
     """Let every motion's tiles be gathered, and count the instants."""
     total, done = sum(motion.kept for motion in motions), 0
-    for motion, gathering in zip(motions, gathered, strict=True):
-        for tile in motion.tiles():
-            gathering.take(tile)
+    for number, (motion, gathering) in enumerate(zip(motions, gathered, strict=True)):
+        others = instruments[number].tiles() if instruments else repeat(None)
+        for tile, other in zip(motion.tiles(), others, strict=False):
+            gathering.take(tile, other)
             done += len(tile.time)
             if progress is not None:
                 progress(done / total)
@@ -183,31 +208,47 @@ def equations(plan: ColumnPlan, tile: Tile) -> Iterator[FilteredRows]:
         yield np.vstack([filtered[rows], torque[joint]]).T, tile.usable[:, joint]
 
 
+def _equations_of(plan: ColumnPlan, tile: Tile, other: Tile | None) -> Iterator[FilteredRows]:
+    """Give the rows [w y] of a tile, or [z w y] with the columns of another one as instruments."""
+    if other is None:
+        yield from equations(plan, tile)
+        return
+    pairs = zip(equations(plan, tile), equations(plan, other), strict=True)
+    for (rows, usable), (instruments, _) in pairs:
+        yield np.hstack([instruments[:, :-1], rows]), usable
+
+
 class _Gathering:
     """Collect the tiles of one motion, block by block."""
 
     def __init__(
-        self, plan: ColumnPlan, weigh: Weigh | None, held_out: frozenset[BlockKey], log: int
+        self, plan: ColumnPlan, weigh: Weigh | None, held_out: frozenset[BlockKey], log: int, *, beside: bool
     ) -> None:
         self.plan = plan
+        self.groups = groups_of(plan, instruments=beside)
         self.weigh = weigh
         self.held_out = [number for source, number in held_out if source == log]
         self.log = log
-        self.memory = [LaggedProducts.empty(len(columns) + 1) for columns in plan.columns_of]
-        self.turning = [TurningProducts.empty(len(columns) + 1) for columns in plan.columns_of]
-        self._tails = [Tail(np.zeros((0, len(columns) + 1)), _UNMARKED) for columns in plan.columns_of]
+        widths = [dict(own) for own in self.groups]
+        totals = [sum(own.values()) for own in widths]
+        self.memory = [
+            LaggedProducts.empty(total, own.get(INSTRUMENT, 0))
+            for total, own in zip(totals, widths, strict=True)
+        ]
+        self.turning = [TurningProducts.empty(total) for total in totals]
+        self._tails = [Tail(np.zeros((0, total)), _UNMARKED) for total in totals]
         self._blocks: dict[int, OpenBlock] = {}
         self.positions: list[JointSeries] = []
 
-    def take(self, tile: Tile) -> None:
+    def take(self, tile: Tile, other: Tile | None = None) -> None:
         if not tile.follows:
             self._tails = [tail.none for tail in self._tails]
         parts = list(tile.parts())
         for number, kept in parts:
             self._sample(tile, kept)
-            block = self._blocks.setdefault(number, OpenBlock(self.plan, float(tile.time[kept.start])))
+            block = self._blocks.setdefault(number, OpenBlock(self.groups, float(tile.time[kept.start])))
             block.end = float(tile.time[kept.stop - 1])
-        pairs = list(equations(self.plan, tile))
+        pairs = list(_equations_of(self.plan, tile, other))
         weights = None if self.weigh is None else self.weigh(pairs)
         fitted = ~np.isin(tile.block, self.held_out)
         for joint, (rows, usable) in enumerate(pairs):
@@ -233,35 +274,6 @@ class _Gathering:
 
     def blocks(self) -> list[Block]:
         return [self._blocks[number].closed(self.log, number) for number in sorted(self._blocks)]
-
-
-def compare(plan: ColumnPlan, tile: Tile, parameters: BaseParameters) -> tuple[JointSeries, JointSeries]:
-    """Give a tile's filtered torque, and what parameters over the plan's columns leave of it, N m.
-
-    The filter is linear: one prediction per joint is filtered in the place of all its columns.
-    """
-    series = plan.series(tile.state)
-    parts = zip(plan.rows_of, plan.columns_of, strict=True)
-    predicted = np.stack([parameters[columns] @ series[rows] for rows, columns in parts])
-    torque = tile.filtered(np.ascontiguousarray(tile.torque.T))
-    return torque.T, (torque - tile.filtered(predicted)).T
-
-
-@dataclass(frozen=True, eq=False)
-class ResidualTile:
-    """Carry filtered torque and residual (measured minus predicted), N m, of all joints, decimated."""
-
-    time: Samples
-    torque: JointSeries
-    residual: JointSeries
-    usable: np.ndarray
-
-
-def residuals(plan: ColumnPlan, motion: Motion, parameters: BaseParameters) -> Iterator[ResidualTile]:
-    """Recompute the residuals from parameters over the plan's columns, tile after tile."""
-    for tile in motion.tiles():
-        torque, residual = compare(plan, tile, parameters)
-        yield ResidualTile(tile.time, torque, residual, tile.usable)
 
 
 def torque_scales(observation: Observation, chosen: tuple[int, ...] | None = None) -> JointVector:

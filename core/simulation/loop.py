@@ -20,9 +20,9 @@ from ..dynamics.terms.payload_change import Payload
 from ..errors import OptionError, SolverError
 from ..signals.state import MotionState
 from . import loop_kernel as rows
+from .gains import Gains
 from .integrate import FASTEST, failure
 from .mechanism import Mechanism
-from .replay import Gains
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,217 +1,101 @@
-"""Play a log again with the simulated robot in the loop of a joint controller, beside the measured motion.
+"""Replay a log tile by tile: the motion that a robot makes under the torque that was measured.
 
-The drive plays a feed-forward torque, and proportional and derivative gains pull the joints to the reference:
-by default the measured torque and the measured motion, so that what the controller adds is what the model
-lacks. Every block of the log is played from its own measured start, all blocks at once. The torque that is
-reported is what a channel with the model's faults would show.
+The measured torque drives the simulated robot, and a soft controller pulls it to the measured motion; what it
+adds is what the model lacks. So no controller has to be known. The columns of the motion that comes out hold
+little of the measured motion's noise, which the controller damps, and friction at rest is what holds there.
 """
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from functools import partial
-from itertools import takewhile
-from typing import Literal
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays import BlockKey, JointSeries, JointVector, Samples
-from ..errors import OptionError
+from ..arrays import Samples
 from ..signals.condition import Motion
+from ..signals.parallel import Tile
 from ..signals.state import MotionState, concatenate_states
-from .along import channel_torque, memory_torque
-from .drive import Drive, Feedback
+from .gains import Gains, default_gains
 from .integrate import LONGEST_STEP
+from .loop import ControlLaw, Inputs, Loop, LoopState
 from .mechanism import Mechanism
-from .rollout import rollout
-from .stage import States
-from .windows import Stretch, same_clock, stretches
 
-FeedForward = Literal["measured", "model", "none"]
-
-
-@dataclass(frozen=True, eq=False)
-class Gains:
-    """Hold proportional and derivative gains per joint, N m/rad and N m s/rad (N/m, N s/m)."""
-
-    stiffness: JointVector
-    damping: JointVector
-
-
-@dataclass(frozen=True)
-class ReplayOptions:
-    """Choose the feed-forward torque, and the bandwidth (Hz) of gains that are not declared."""
-
-    feed_forward: FeedForward = "measured"
-    bandwidth_hz: float = 5.0
-    longest_step: float = LONGEST_STEP
-
-    def __post_init__(self) -> None:
-        """Refuse controllers that are none."""
-        if self.feed_forward not in {"measured", "model", "none"} or not 0.01 <= self.bandwidth_hz <= 100.0:
-            raise OptionError(
-                "the controller of the replay is not valid",
-                evidence={"feed_forward": self.feed_forward, "bandwidth_hz": self.bandwidth_hz},
-                remedy="feed forward measured, model or none, with a bandwidth from 0.01 to 100 Hz",
-            )
-
-
-@dataclass(frozen=True, eq=False)
-class Replayed:
-    """Hold one block played again: measured and simulated motion (rad, m; per s) and torque (N m, N)."""
-
-    key: BlockKey
-    time: Samples
-    measured: MotionState
-    measured_torque: JointSeries
-    position: JointSeries
-    velocity: JointSeries
-    torque: JointSeries
+_POSITIONS_PER_TILE = 16
+"""Positions that tell the inertia which a joint sees on its way."""
 
 
 @dataclass(frozen=True, eq=False)
 class Replay:
-    """Hold all blocks, the gains they were played with, and the RMS errors per joint."""
+    """Give the tiles of a motion with what the robot does in the place of what was measured."""
 
-    blocks: tuple[Replayed, ...]
+    motion: Motion
+    mechanism: Mechanism
     gains: Gains
-    position_rms: JointVector
-    velocity_rms: JointVector
-    torque_rms: JointVector
+    substeps: int | None = None
+    """Steps of the simulation per sample; None for steps of `LONGEST_STEP` at most."""
+
+    @property
+    def kept(self) -> int:
+        """Count the decimated samples."""
+        return self.motion.kept
+
+    def tiles(self) -> Iterator[Tile]:
+        """Go once through the motion; every gap-free part of it begins as it was measured.
+
+        Raises
+        ------
+        OptionError
+            If the model has terms that the loop does not simulate.
+        SolverError
+            If the simulated motion diverges.
+        """
+        lane: _Lane | None = None
+        for tile in self.motion.tiles():
+            lane = self._begun(tile) if lane is None or not tile.follows else lane.onwards(tile)
+            yield replace(tile, state=replace(lane.seen, temperature=tile.state.temperature))
+
+    def _begun(self, tile: Tile) -> "_Lane":
+        time = _clock(tile.state)
+        step = float(time[-1] - time[0]) / (len(time) - 1)
+        substeps = self.substeps or max(1, int(np.ceil(step / LONGEST_STEP - 1e-9)))
+        loop = Loop(self.mechanism, ControlLaw.of_joints(self.gains), step, substeps)
+        return _Lane(loop, loop.start(tile.state), tile.state.at(slice(0))).onwards(tile)
 
 
-def default_gains(mechanism: Mechanism, position: JointSeries, bandwidth_hz: float) -> Gains:
-    """Damp every joint critically at a bandwidth, for the median inertia it sees on its way.
+@dataclass(frozen=True, eq=False)
+class _Lane:
+    """Hold the simulation of a gap-free part: where it stands, and what the last tile saw of it."""
 
-    Without a reference apart from the measured motion no gain can be fitted, since the error is zero.
-    """
-    inertia = np.median(np.diagonal(mechanism.mass_matrices(position), axis1=1, axis2=2), axis=0)
-    rate = 2.0 * np.pi * bandwidth_hz
-    return Gains(inertia * rate**2, 2.0 * inertia * rate)
+    loop: Loop
+    state: LoopState
+    seen: MotionState
+
+    def onwards(self, tile: Tile) -> "_Lane":
+        """Simulate up to the tile's last sample; the first ones it shares with the tile before."""
+        time = _clock(self.seen)
+        known = int(np.count_nonzero(time > _clock(tile.state)[0] - 0.5 * self.loop.step))
+        fresh = slice(known, None)
+        measured = tile.state.at(fresh)
+        inputs = Inputs(tile.torque[fresh], measured.position, measured.velocity)
+        played, state = self.loop.run(self.state, inputs)
+        if not known:
+            return _Lane(self.loop, state, played.state)
+        before = self.seen.at(slice(len(time) - known, None))
+        return _Lane(self.loop, state, concatenate_states([before, played.state]))
 
 
-def fitted_gains(
-    mechanism: Mechanism, reference: MotionState, measured: MotionState, torque: JointSeries
-) -> Gains:
-    """Fit gains to a log with a reference: measured torque less the model's along the reference.
-
-    Raises
-    ------
-    OptionError
-        If the reference is the measured motion, which fits any gain, or a fitted gain is negative.
-    """
-    left = torque - mechanism.torque(reference)
-    pairs = []
-    for joint in range(mechanism.joints):
-        errors = np.column_stack(
-            [
-                (reference.position - measured.position)[:, joint],
-                (reference.velocity - measured.velocity)[:, joint],
-            ]
-        )
-        found, _, rank, _ = np.linalg.lstsq(errors, left[:, joint], rcond=1e-10)
-        if rank < 2 or (found < 0.0).any():
-            raise OptionError(
-                "the joint's gains cannot be fitted",
-                evidence={"joint": joint + 1, "rank": int(rank), "fitted": [float(gain) for gain in found]},
-                remedy="declare the gains, or give the reference that the controller tracked",
-            )
-        pairs.append(found)
-    stiffness, damping = np.array(pairs).T
-    return Gains(stiffness, damping)
+def _clock(state: MotionState) -> Samples:
+    """Give the instants of conditioned or simulated motion, which are always known."""
+    return np.asarray(state.time)
 
 
 def replay(
-    mechanism: Mechanism,
-    motions: tuple[Motion, ...],
-    options: ReplayOptions | None = None,
-    *,
-    gains: Gains | None = None,
-    chosen: frozenset[BlockKey] | None = None,
-    progress: Callable[[float], None] | None = None,
-) -> Replay:
-    """Play the chosen blocks (all by default) again with the measured motion as reference.
-
-    Raises
-    ------
-    SolverError
-        If the simulated motion diverges.
-    """
-    asked = options or ReplayOptions()
-    measured = tuple(stretches(motions, chosen))
-    if not measured:
-        raise OptionError(
-            "there is no block to simulate again",
-            evidence={"chosen": sorted(chosen or ())},
-            remedy="choose blocks that the logs have",
-        )
-    if gains is None:
-        positions = np.vstack([stretch.state.position[:: stretch.every] for stretch in measured])
-        gains = default_gains(mechanism, positions, asked.bandwidth_hz)
-    blocks: list[Replayed] = []
-    while len(blocks) < len(measured):
-        left = measured[len(blocks) :]
-        group = list(takewhile(partial(_same_step, left[0]), left))
-        blocks += _replay(mechanism, group, gains, asked)
-        if progress is not None:
-            progress(len(blocks) / len(measured))
-    return Replay(tuple(blocks), gains, *_rms_errors(blocks))
-
-
-def _rms_errors(blocks: Sequence[Replayed]) -> Iterator[JointVector]:
-    """Give the RMS errors of position, velocity and torque per joint."""
-    errors = (
-        [block.position - block.measured.position for block in blocks],
-        [block.velocity - block.measured.velocity for block in blocks],
-        [block.torque - block.measured_torque for block in blocks],
-    )
-    return (np.sqrt(np.mean(np.vstack(of_channel) ** 2, axis=0)) for of_channel in errors)
-
-
-def _same_step(first: Stretch, other: Stretch) -> bool:
-    return same_clock(first.step, other.step)
-
-
-def _replay(mechanism: Mechanism, group: list[Stretch], gains: Gains, asked: ReplayOptions) -> list[Replayed]:
-    """Play stretches of one clock side by side; shorter ones wait at their end until the longest is done."""
-    past = [memory_torque(mechanism, stretch) for stretch in group]
-    shown = [channel_torque(mechanism, stretch) for stretch in group]
-    drive = _drive(mechanism, group, gains, asked.feed_forward, past)
-    start = concatenate_states([stretch.state.at(slice(1)) for stretch in group])
-    moved = rollout(mechanism, States.starting(mechanism, start), drive, longest_step=asked.longest_step)
-    return [
-        Replayed(
-            key=stretch.key,
-            time=stretch.time,
-            measured=stretch.state,
-            measured_torque=stretch.torque,
-            position=moved.position[: len(stretch.time), :, lane],
-            velocity=moved.velocity[: len(stretch.time), :, lane],
-            torque=moved.torque[: len(stretch.time), :, lane] + past[lane] + shown[lane],
-        )
-        for lane, stretch in enumerate(group)
+    mechanism: Mechanism, motions: tuple[Motion, ...], bandwidth_hz: float, substeps: int | None = None
+) -> tuple[Replay, ...]:
+    """Replay motions with a controller of this bandwidth (Hz), the same for all."""
+    positions = [
+        tile.state.position[:: 1 + len(tile.torque) // _POSITIONS_PER_TILE]
+        for motion in motions
+        for tile in motion.tiles()
     ]
-
-
-def _drive(
-    mechanism: Mechanism, group: list[Stretch], gains: Gains, kind: FeedForward, past: list[JointSeries]
-) -> Drive:
-    """Give the torques that drive stretches side by side: feed-forward less what remains of the past."""
-    longest = max(len(stretch.time) for stretch in group)
-    position = _pad([stretch.state.position for stretch in group], longest)
-    velocity = _pad([stretch.state.velocity for stretch in group], longest)
-    forward = (_feed_forward(mechanism, stretch, kind) for stretch in group)
-    torque = _pad([full - old for full, old in zip(forward, past, strict=True)], longest)
-    return Drive(group[0].step, torque, Feedback(gains.stiffness, gains.damping, position, velocity))
-
-
-def _feed_forward(mechanism: Mechanism, stretch: Stretch, kind: FeedForward) -> JointSeries:
-    """Give the feed-forward torque of the drives, N m or N, without errors of the torque channel."""
-    if kind == "none":
-        return np.zeros_like(stretch.torque)
-    torque = stretch.torque if kind == "measured" else mechanism.torque(stretch.around)[stretch.inside]
-    return np.asarray(torque - channel_torque(mechanism, stretch))
-
-
-def _pad(series: list[JointSeries], longest: int) -> np.ndarray:
-    padded = [np.pad(rows, ((0, longest - len(rows)), (0, 0)), mode="edge") for rows in series]
-    return np.ascontiguousarray(np.stack(padded, axis=2))
+    gains = default_gains(mechanism, np.vstack(positions), bandwidth_hz)
+    return tuple(Replay(motion, mechanism, gains, substeps) for motion in motions)

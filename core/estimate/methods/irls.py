@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays import BaseParameters, Indices, JointVector, Samples, Weights
+from ...arrays import BaseParameters, Indices, JointVector, Parameters, Samples, Weights
 from ...regressor.factor import FilteredRows, Weigh
 from ..system import stacked, weighted
 from .method import FitData, Step
@@ -26,9 +26,10 @@ class IterativelyReweighted:
     title: str = "robust, may be inconsistent"
     needs: tuple[str, ...] = ()
     feasible: bool = False
+    iterative: bool = False
     row_weights: bool = True
 
-    def equations(self, at: BaseParameters | None, data: FitData) -> Step:  # noqa: ARG002  (the same at any robot)
+    def equations(self, at: Parameters | None, data: FitData) -> Step:  # noqa: ARG002  (the same at any robot)
         """Write the equations, which are the same at any robot."""
         return huber_equations(data.discounted())
 

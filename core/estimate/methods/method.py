@@ -7,10 +7,10 @@ filter at its end. Whatever the method, its equations are solved as they are or 
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
-from ...arrays import BaseParameters, Indices, JointVector
+from ...arrays import Indices, JointVector, Parameters
 from ...regressor.factor import Factor, Weigh
 from ...regressor.memory import LaggedProducts
-from ..system import System
+from ..system import Criterion, System
 
 
 @runtime_checkable
@@ -48,8 +48,18 @@ class FitData(Protocol):
     def discounted(self) -> "FitData":
         """Weigh the rows beside reversals by their own noise, unless that is not wanted."""
 
+    @property
+    def criterion(self) -> Criterion:
+        """Say how the factors become equations."""
+
     def weighted(self, weigh: Weigh) -> "FitData":
         """Pass over the motions again with every row weighted."""
+
+    def simulated(self, at: Parameters) -> "FitData":
+        """Take the columns of the motion that a robot of these parameters makes when a log is replayed."""
+
+    def instrumented(self, at: Parameters) -> "FitData":
+        """Put those columns before the measured ones, as instruments."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,8 +92,15 @@ class Estimator(Protocol):
         """Tell whether the equations are solved under the constraints of physical consistency."""
 
     @property
+    def iterative(self) -> bool:
+        """Tell whether the equations depend on the robot that they are written at."""
+
+    @property
     def row_weights(self) -> bool:
         """Tell whether the option `robust`, which weights rows, has an effect."""
 
-    def equations(self, at: BaseParameters | None, data: FitData) -> Step:
-        """Write the equations at a robot; at None before there is any."""
+    def equations(self, at: Parameters | None, data: FitData) -> Step:
+        """Write the equations at a robot of these standard parameters; at None before there is any.
+
+        An iterative one then writes those of the first estimate, which needs no robot.
+        """

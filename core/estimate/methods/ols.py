@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from ...arrays import BaseParameters
+from ...arrays import Parameters
 from ..system import ordinary
 from .method import FitData, Step
 
@@ -15,8 +15,9 @@ class OrdinaryLeastSquares:
     title: str = "ordinary least squares"
     needs: tuple[str, ...] = ()
     feasible: bool = False
+    iterative: bool = False
     row_weights: bool = False
 
-    def equations(self, at: BaseParameters | None, data: FitData) -> Step:  # noqa: ARG002  (the same at any robot)
+    def equations(self, at: Parameters | None, data: FitData) -> Step:  # noqa: ARG002  (the same at any robot)
         """Write the equations, which are the same at any robot."""
         return Step(ordinary(data.factors, data.columns_of, data.size), data)

@@ -2,7 +2,9 @@
 
 from collections.abc import Mapping
 
+from .didim import DirectInverse
 from .irls import IterativelyReweighted
+from .iv import InstrumentalVariables
 from .method import Estimator
 from .ols import OrdinaryLeastSquares
 from .sdp import SemidefiniteProgramme
@@ -13,6 +15,8 @@ _LISTED: tuple[Estimator, ...] = (
     OrdinaryLeastSquares(),
     WeightedLeastSquares(),
     IterativelyReweighted(),
+    InstrumentalVariables(),
+    DirectInverse(),
 )
 ESTIMATORS: Mapping[str, Estimator] = {estimator.name: estimator for estimator in _LISTED}
 """The estimators by name, the default first."""

@@ -5,7 +5,7 @@ Source: Gautier 1997 (IDIM-LS); Khalil & Dombre (2002), ch. 12.
 
 from dataclasses import dataclass
 
-from ...arrays import BaseParameters
+from ...arrays import Parameters
 from ..system import weighted
 from .irls import huber_equations
 from .method import FitData, Step
@@ -19,11 +19,14 @@ class WeightedLeastSquares:
     title: str = "weighted, may be inconsistent"
     needs: tuple[str, ...] = ()
     feasible: bool = False
+    iterative: bool = False
     row_weights: bool = True
 
-    def equations(self, at: BaseParameters | None, data: FitData) -> Step:  # noqa: ARG002  (the same at any robot)
+    def equations(self, at: Parameters | None, data: FitData) -> Step:  # noqa: ARG002  (the same at any robot)
         """Write the equations, which are the same at any robot."""
-        data = data.discounted()
-        if data.robust:
-            return huber_equations(data)
-        return Step(weighted(data.factors, data.columns_of, data.size), data)
+        return huber_equations(data.discounted()) if data.robust else joint_equations(data.discounted())
+
+
+def joint_equations(data: FitData) -> Step:
+    """Weight every joint by the noise of its own residual."""
+    return Step(weighted(data.factors, data.columns_of, data.size, data.criterion), data)

@@ -18,7 +18,7 @@ from ...arrays import BaseParameters
 from ...extension.result import Extension
 from ...identification.result import Identification
 from ...regressor.columns import ColumnPlan
-from ...regressor.observe import compare
+from ...regressor.residuals import compare
 from ...robot.model import RobotModel
 from ...signals.parallel import Tile
 from .layout import EXTENDED, HELD_OUT, LOG, MEASURED, PREDICTED, REVERSAL, TIME, USED, column, unit

@@ -13,7 +13,7 @@ from veritorque.core.dynamics.model import standard_model
 from veritorque.core.errors import OptionError
 from veritorque.core.log.model import JointLog, whole_rows
 from veritorque.core.log.reader import log_from_arrays
-from veritorque.core.regressor.observe import residuals
+from veritorque.core.regressor.residuals import residuals
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.study import IdentifyRequest, identify_in_full
 from veritorque.core.validation.holdout import HoldOut

@@ -4,6 +4,7 @@ import { AUDITED, showAudit } from "./audit.js";
 import { showBodies } from "./bodies.js";
 import { showConflicts } from "./conflicts.js";
 import { element, fill } from "../base/dom.js";
+import { COMPARED, showComparison } from "./estimators.js";
 import { showExcitation } from "./excitation.js";
 import { showFindings, showRemainder } from "./findings.js";
 import { showHeadline } from "./headline.js";
@@ -41,6 +42,7 @@ export async function show(container, job) {
 const OWN = {
   check: { sections: CHECKED, headline: showAgreement },
   audit: { sections: AUDITED, headline: showAudit },
+  compare: { sections: COMPARED, headline: showComparison },
 };
 const DIAGNOSED = [
   ["findings", "Findings", showFindings],

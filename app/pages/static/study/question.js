@@ -15,8 +15,15 @@ const { kinds: KINDS, estimators: ESTIMATORS } = ANALYSES;
 export function askQuestion(container) {
   const known = { robot: null, logs: [] };
   let kind = KINDS[0];
-  const choices = { cutoff: "", fraction: "", estimator: ESTIMATORS[0].name, reference: "" };
+  const choices = { cutoff: "", fraction: "", estimator: ESTIMATORS[0].name, reference: "", compared: new Set(ESTIMATORS.map(({ name }) => name)) };
   const reference = element("div", {});
+  const single = field(
+    "Estimator",
+    menu(ESTIMATORS.map(({ name, title }) => [name, `${title} (${name})`]), ESTIMATORS[0].name, (value) => {
+      choices.estimator = value;
+    }),
+  );
+  const several = element("fieldset", {}, element("legend", {}, "Estimators"), ESTIMATORS.map(offer));
   const missing = element("p", { class: "hint", role: "status" });
   const said = element("div", { class: "said", "aria-live": "polite" });
   const start = element("button", { type: "button", class: "primary large", on: { click: begin } }, "Start");
@@ -59,12 +66,8 @@ export function askQuestion(container) {
           "chosen from the bandwidth of the motion if empty",
         ),
         field("Held out for validation, %", text("fraction", "20"), "0 to 50 % of each log, in blocks"),
-        field(
-          "Estimator",
-          menu(ESTIMATORS.map(({ name, title }) => [name, `${title} (${name})`]), ESTIMATORS[0].name, (value) => {
-            choices.estimator = value;
-          }),
-        ),
+        several,
+        single,
         reference,
       ),
     ),
@@ -93,6 +96,19 @@ export function askQuestion(container) {
     });
   }
 
+  function offer({ name, title }) {
+    const box = element("input", {
+      type: "checkbox",
+      checked: true,
+      on: {
+        change: (event) => {
+          choices.compared[event.target.checked ? "add" : "delete"](name);
+        },
+      },
+    });
+    return element("label", {}, box, ` ${title} (${name})`);
+  }
+
   function show() {
     const wants = [known.robot ? null : "robot", known.logs.length || !kind.takes_logs ? null : "log"].filter(Boolean);
     const joints = known.robot?.description.joints.filter((one) => !one.mimics).length;
@@ -109,6 +125,8 @@ export function askQuestion(container) {
           : "";
     missing.classList.toggle("wrong", odd !== undefined || Boolean(gainless));
     reference.hidden = !kind.takes_reference;
+    single.hidden = kind.compares;
+    several.hidden = !kind.compares;
   }
 
   async function offerReferences() {
@@ -162,7 +180,8 @@ export function askQuestion(container) {
       asked.validation = {
         fraction: Number.isFinite(readNumber(choices.fraction)) ? readNumber(choices.fraction) / 100 : choices.fraction,
       };
-    if (choices.estimator !== ESTIMATORS[0].name) asked.estimator = choices.estimator;
+    if (kind.compares) asked.compare = ESTIMATORS.map(({ name }) => name).filter((name) => choices.compared.has(name));
+    else if (choices.estimator !== ESTIMATORS[0].name) asked.estimator = choices.estimator;
     if (kind.takes_reference) asked.reference = choices.reference || null;
     return asked;
   }

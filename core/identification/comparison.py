@@ -1,0 +1,99 @@
+"""Fit the same equations by several estimators, and measure what each costs and how its robot moves.
+
+An estimator that fails is a row of the table like any other: it says why.
+"""
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ..errors import ExcitationError, LogError, OptionError, SolverError, VeritorqueError
+from ..estimate.methods.registry import ESTIMATORS
+from ..estimate.problem import Problem
+from ..simulation.mechanism import mechanism_of
+from ..simulation.multistep import MultiStep, predict_motion
+from .identify import fit, judge, no_progress
+from .options import parse_options
+from .result import Identification
+
+COMPARE = "compare"
+"""Option: the names of the estimators."""
+
+
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """Hold what one estimator gave, or why it gave nothing."""
+
+    estimator: str
+    found: Identification | None
+    failure: VeritorqueError | None
+    motion: MultiStep | None
+    """Errors of simulated motion on held-out blocks; None where it could not be simulated."""
+    motion_note: str
+    """Why not; empty where it could."""
+    cpu_seconds: float
+    """Processor time of fit and judgement, without the reading and conditioning of the logs."""
+
+
+def read_estimators(options: Mapping[str, object]) -> tuple[str, ...]:
+    """Read the names of the estimators that are to be compared; all by default.
+
+    Raises
+    ------
+    OptionError
+        If they are no list of at least two known names, each named once, or one estimator is asked for.
+    """
+    names = options.get(COMPARE)
+    if options.get("estimator") is not None:
+        raise OptionError(
+            "a comparison has no option estimator",
+            evidence={"pointer": "/options/estimator", "given": str(options["estimator"])[:50]},
+            remedy=f"name the estimators in the option {COMPARE}",
+        )
+    if names is None:
+        return tuple(ESTIMATORS)
+    listed = [str(name) for name in names] if isinstance(names, list) else []
+    if not 2 <= len(set(listed)) == len(listed) or not set(listed) <= set(ESTIMATORS):
+        raise OptionError(
+            "a comparison takes at least two known estimators, each named once",
+            evidence={"pointer": f"/options/{COMPARE}", "given": str(names)[:80], "known": list(ESTIMATORS)},
+            remedy='give a list of names, such as ["sdp", "wls"]',
+        )
+    return tuple(listed)
+
+
+def options_for(options: Mapping[str, object], name: str) -> dict[str, object]:
+    """Give a comparison's options for one estimator: without those that have no effect on it."""
+    method = ESTIMATORS[name]
+    acts = {
+        "bounds": method.feasible,
+        "robust": method.row_weights,
+        "simulation": method.iterative,
+        "iteration": method.iterative,
+        COMPARE: False,
+    }
+    return {key: value for key, value in options.items() if acts.get(key, True)} | {"estimator": name}
+
+
+def fit_by(name: str, options: Mapping[str, object], begun: Identification) -> Compared:
+    """Fit by one estimator what an identification has conditioned and observed."""
+    start = time.process_time()
+    problem = Problem(begun.base, begun.motions, begun.held_out)
+    try:
+        own = parse_options(options_for(options, name))
+        found = judge(begun.logs, own, fit(problem, own, no_progress, begun.observation), no_progress)
+    except (ExcitationError, LogError, OptionError, SolverError) as error:
+        return Compared(name, None, error, None, "", time.process_time() - start)
+    spent = time.process_time() - start
+    return Compared(name, found, None, *_motion(found), spent)
+
+
+def _motion(found: Identification) -> tuple[MultiStep | None, str]:
+    """Simulate held-out windows; say why where the robot cannot be simulated."""
+    if not found.held_out:
+        return None, "no block is held out"
+    try:
+        mechanism = mechanism_of(found.base.model, found.estimate.standard)
+        return predict_motion(mechanism, found.motions, chosen=found.held_out), ""
+    except (LogError, OptionError, SolverError) as error:
+        return None, error.cause
