@@ -19,7 +19,7 @@ NEAR_LARGEST = 0.9
 """A limit is as far from zero as the torque ever gets, apart from a small asymmetry; zero itself is none."""
 
 
-class _Limit:
+class Limit:
     """Follow the two highest levels of one signal and the plateaus on the highest."""
 
     def __init__(self) -> None:
@@ -28,6 +28,7 @@ class _Limit:
         self.runs = Runs(SHORTEST_PLATEAU)
 
     def update(self, values: Samples, moves: SampleMask, time: Samples) -> None:
+        """Take the next values into account, and where the joint moves."""
         highest = float(values.max())
         if highest < self.second:
             self.runs.close()
@@ -50,6 +51,7 @@ class _Limit:
             self.second_rows += int(np.count_nonzero(values == level))
 
     def holds(self) -> bool:
+        """Tell whether the highest level is a limit."""
         self.runs.close()
         varied = self.second > -np.inf
         crowded = varied and self.top_rows > CROWDING * max(self.second_rows, 1)
@@ -60,7 +62,7 @@ class Saturation:
     """Find limits at both ends of every joint's torque."""
 
     def __init__(self, joints: int) -> None:
-        self._limits = [(_Limit(), _Limit()) for _ in range(joints)]
+        self._limits = [(Limit(), Limit()) for _ in range(joints)]
 
     def update(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
