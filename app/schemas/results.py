@@ -68,6 +68,7 @@ class Estimation(Open):
 
     estimator: str
     title: str
+    statements: Annotated[list[str], about("the same in sentences")]
     constrained: Annotated[bool, about("whether every step is solved under the constraints of consistency")]
     converged: bool
     stop_reason: str

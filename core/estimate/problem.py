@@ -12,10 +12,9 @@ from ..reduction.base import BaseModel
 from ..regressor.columns import ColumnPlan
 from ..regressor.factor import Factor, Weigh
 from ..regressor.memory import LaggedProducts
-from ..regressor.observe import Observation, observe
+from ..regressor.observe import Observation, Tiled, observe
 from ..signals.condition import Motion
 from ..simulation.mechanism import mechanism_of
-from ..simulation.replay import Replay, replay
 from .gaussian_prior import GaussianPrior
 from .options import SimulationOptions
 from .reversals import reversal_weights
@@ -133,7 +132,9 @@ class ObservedProblem:
         )
         return replace(self, observation=beside, criterion=INSTRUMENTAL)
 
-    def _replayed(self, at: Parameters) -> tuple[Replay, ...]:
+    def _replayed(self, at: Parameters) -> tuple[Tiled, ...]:
+        from ..simulation.replay import replay  # compiled for some ten seconds: only for who simulates
+
         mechanism, asked = mechanism_of(self.problem.base.model, at), self.simulation
         return replay(mechanism, self.problem.motions, asked.bandwidth_hz, asked.substeps)
 

@@ -33,12 +33,17 @@ CERTAIN = 3.0
 
 def doubts(found: Identification) -> tuple[str, ...]:
     """List the warnings."""
-    return (*_logs(found), *contradictions(found), *_not_excited(found))
+    return (*_logs(found), *contradictions(found), *_not_converged(found), *_not_excited(found))
 
 
 def contradictions(found: Identification) -> tuple[str, ...]:
     """List the warnings that say that the model does not fit the log."""
     return (*_cost(found), *_signs(found), *_unexplained(found), *_held_out(found))
+
+
+def _not_converged(found: Identification) -> list[str]:
+    ended = found.convergence
+    return [] if ended.converged else [f"The estimator {found.estimator} did not converge: {ended.reason}"]
 
 
 def has_impossible_joint(found: Identification) -> bool:

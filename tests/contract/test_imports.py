@@ -24,6 +24,7 @@ SKELETON = (
     "veritorque.core.dynamics.terms",
     "veritorque.core.errors",
     "veritorque.core.estimate.programme",
+    "veritorque.core.estimator_comparison",
     "veritorque.core.log.model",
     "veritorque.core.regressor.kernel",
     "veritorque.core.robot.model",

@@ -22,7 +22,7 @@ def print_comparison(console: Console, result: Document) -> None:
         console.print(line)
     print_table(console, estimator_columns(result["compared"]), title="Estimators")
     for row in result["compared"]:
-        for line in failure_lines(row):
+        for line in remarks(row):
             console.print(escape(line))
     given = [row for row in result["compared"] if row["base_parameters"]]
     print_table(console, parameter_columns(given), title="Base parameters ± standard deviation")
@@ -60,12 +60,12 @@ def motion_percent(motion: Document | None) -> float | None:
     return float(100.0 * (sum(share**2 for share in shares) / len(shares)) ** 0.5)
 
 
-def failure_lines(row: Document) -> list[str]:
-    """Say why an estimator failed, did not converge, or could not be simulated."""
+def remarks(row: Document) -> list[str]:
+    """Say why an estimator failed or could not be simulated, how it ended, and what instruments tell."""
     name, failure, ended = row["estimator"], row["failure"], row["estimation"]
     lines = [] if failure is None else [f"{name}: {failure['cause']}; {failure['remedy']}"]
-    if ended is not None and not ended["converged"]:
-        lines.append(f"{name}: {ended['stop_reason']}.")
+    if ended is not None:  # the first sentence names the estimator
+        lines += [f"{name}: {sentence}" for sentence in ended["statements"][1:]]
     if row["simulated_motion_note"]:
         lines.append(f"{name}: motion was not simulated: {row['simulated_motion_note']}.")
     return lines

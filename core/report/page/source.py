@@ -20,7 +20,21 @@ def sources(document: Document) -> dict[str, object]:
         "noise": _noise(document),
         "reference": reference(document) if document.get("diagnosis") else None,
         "provenance": _provenance(document),
+        "estimation": _estimation(document),
     }
+
+
+def _estimation(document: Document) -> str:
+    """Say how the estimate was computed."""
+    estimation = document.get("estimation") or {}
+    constrained = estimation.get("constrained", True)
+    programme = (
+        "The estimate is the optimum of a semidefinite programme whose constraints ensure the physical "
+        "consistency of every link."
+        if constrained
+        else "The estimate is not constrained to be physically consistent."
+    )
+    return " ".join([*estimation.get("statements", []), programme])
 
 
 def _logs(document: Document) -> Table:

@@ -33,11 +33,9 @@ function figure(big, small) {
 }
 
 function showEstimators(container, { document }) {
-  const errors = document.compared.map((row) => row.validation_total_percent).filter((value) => value !== null);
-  const largest = Math.max(...errors, 0);
   const rows = document.compared.map((row) => [
     `${row.title} (${row.estimator})`,
-    bar(row.validation_total_percent, largest),
+    relative(row.validation_total_percent),
     relative(motion(row.simulated_motion)),
     row.feasible === null ? "–" : row.feasible ? "yes" : "no",
     row.estimation ? String(row.estimation.steps.length || 1) : "–",
@@ -49,12 +47,6 @@ function showEstimators(container, { document }) {
     remarks(document.compared));
 }
 
-function bar(value, largest) {
-  if (value === null) return "–";
-  const full = largest > 0 ? (100 * value) / largest : 0;
-  return element("span", { class: "bar" }, element("meter", { min: "0", max: "100", value: String(full), "aria-hidden": "true" }), ` ${relative(value)}`);
-}
-
 function motion(found) {
   if (!found) return null;
   const last = found.position_rms.length - 1;
@@ -62,13 +54,13 @@ function motion(found) {
   return shares.length ? 100 * Math.sqrt(shares.reduce((sum, share) => sum + share ** 2, 0) / shares.length) : null;
 }
 
-// Why an estimator failed, did not converge, or could not be simulated; and what its instruments tell.
+// Why an estimator failed or could not be simulated, how it ended, and what its instruments tell.
 function remarks(compared) {
   const said = compared.flatMap((row) => [
     row.failure ? `${row.estimator}: ${row.failure.cause}; ${row.failure.remedy}.` : null,
-    row.estimation && !row.estimation.converged ? `${row.estimator}: ${row.estimation.stop_reason}.` : null,
     row.simulated_motion_note ? `${row.estimator}: motion was not simulated: ${row.simulated_motion_note}.` : null,
-    row.estimation?.instruments ? `${row.estimator}: the largest difference to least squares is ${number(row.estimation.instruments.largest, 2)} standard deviations.` : null,
+    // The first sentence names the estimator.
+    ...(row.estimation?.statements.slice(1).map((text) => `${row.estimator}: ${text}`) ?? []),
   ]).filter(Boolean);
   return said.length ? element("ul", {}, said.map((text) => element("li", {}, text))) : null;
 }

@@ -27,7 +27,7 @@ export function tracesOf(job, document) {
   const known = new Map();
   const starts = new Map();
   const logs = new Map();
-  return { joints: document.fit.length, logs: document.logs.length, extended, of, raw };
+  return { joints: document.fit?.length ?? 0, logs: document.logs.length, extended, of, raw };
 
   /** Read all signals of a joint of a log, both counted from 1; a range in s reads that part of it, finer. */
   function of(joint, log = 1, range = null) {
