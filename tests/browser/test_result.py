@@ -104,6 +104,19 @@ def test_a_set_up_check_has_a_page_of_its_own_without_barriers(look, service, re
     assert seen.barriers() == []
 
 
+def test_a_comparison_of_estimators_has_a_page_of_its_own_without_barriers(look, service, reversed_log):
+    seen = look(service, width=390, height=800)
+    started(seen.page, service, "compare", reversed_log)
+    page = drawn(seen.page, ["estimators", "parameters", "export"])
+    document = document_of(page)
+    assert page.locator("#estimators tbody tr").count() == len(document["compared"])
+    assert page.locator("#parameters tbody tr").count() == len(document["parameters"])
+    assert page.locator("#export a").count() == 3
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    seen.photograph("result_compare_phone")
+    assert seen.barriers() == []
+
+
 def drawn(page, sections):
     """Scroll through the sections, until each is drawn."""
     page.locator(".headline").wait_for()

@@ -79,7 +79,7 @@ def effort_column(result: Document, heading: str, rows: Sequence[Document], key:
 
 
 def summary(result: Document) -> list[str]:
-    """Summarise parameter counts, physical consistency and solver status, and how the logs were read."""
+    """Summarise parameter counts, physical consistency, solver and estimator, and how the logs were read."""
     counts, feasibility, solver = result["counts"], result["feasibility"], result["solver"]
     smallest = min(feasibility["pseudo_inertia_min_eigenvalue"])
     objective, least = number(solver["objective"]), number(solver["objective_ols"])
@@ -98,7 +98,8 @@ def summary(result: Document) -> list[str]:
             f"Smallest eigenvalue of the mass matrix in {workspace.get('configurations', 'all')} "
             f"configurations: {number(workspace['workspace'])}."
         )
-    return lines + reading_lines(result)
+    estimation = result.get("estimation") or {}
+    return [*lines, *estimation.get("statements", []), *reading_lines(result)]
 
 
 def reading_lines(result: Document) -> list[str]:

@@ -27,6 +27,7 @@ export function showParameters(container, { job, document }) {
     element("option", { value: "all" }, "all joints"),
     [...new Set(rows.map((row) => row.joint))].map((joint) => element("option", { value: joint }, `joint ${joint}`)));
   fill(container,
+    document.estimation ? element("p", { class: "hint" }, document.estimation.statements.join(" ")) : null,
     document.plain ? element("p", { class: "hint" }, `${document.model.statement}. Parameters added by findings are marked as new.`) : null,
     element("div", { class: "row spread toolbar" },
       element("span", { class: "row" }, element("label", { for: "joint-filter" }, "Show"), filter, said),
