@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from ..estimate.methods.registry import ESTIMATORS
 from ..identification.result import Identification
 from ..precision.endogeneity import Endogeneity
+from ..simulation.controller_check import ControllerCheck
 
 
 def estimation_fields(found: Identification) -> dict[str, object]:
@@ -18,8 +19,24 @@ def estimation_fields(found: Identification) -> dict[str, object]:
         "converged": ended.converged,
         "stop_reason": ended.reason,
         "steps": [vars(step) for step in ended.steps],
-        "simulation": {"from": "replay", **vars(found.simulation)} if method.iterative else None,
+        "simulation": _simulation(found) if method.iterative else None,
         "instruments": None if found.endogeneity is None else vars(found.endogeneity),
+    }
+
+
+def _simulation(found: Identification) -> dict[str, object]:
+    """Say what drove the simulated robot along the logs."""
+    asked = found.simulation
+    source = {"from": asked.source, "bandwidth_hz": asked.bandwidth_hz, "substeps": asked.substeps}
+    return source | {"controllers": [_controller(check) for check in found.controllers]}
+
+
+def _controller(check: ControllerCheck) -> dict[str, object]:
+    """Describe a log's controller, and how well it recomputes the log's command."""
+    return {
+        "channel": check.channel,
+        **vars(check.model),
+        "command_residual_percent": [100.0 * share for share in check.tried[0].residual],
     }
 
 
@@ -27,10 +44,22 @@ def _statements(found: Identification) -> Iterator[str]:
     """Say the same in sentences, for people."""
     method, ended = ESTIMATORS[found.estimator], found.convergence
     yield f"Estimator: {method.title} ({found.estimator})."
+    for number, check in enumerate(found.controllers, start=1):
+        yield _recognised(number, check)
     if method.iterative:
         yield f"It simulated the logs {len(ended.steps)} times: {ended.reason}."
     if found.endogeneity is not None:
         yield _difference(found.endogeneity)
+
+
+def _recognised(number: int, check: ControllerCheck) -> str:
+    model, worst = check.model, 100.0 * check.tried[0].worst
+    kind = {"pd": "a PD controller", "cascade": "a cascade of position and speed"}[model.kind]
+    rule = model.velocity.replace("_", " ")
+    return (
+        f"Log {number} was driven by {kind} (velocity: {rule}, delay {model.delay_samples} samples), which "
+        f"recomputes its {check.channel.replace('_', ' ')} within {worst:.2g} %."
+    )
 
 
 def _difference(told: Endogeneity) -> str:

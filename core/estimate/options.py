@@ -11,6 +11,8 @@ from .constraints import Bounds
 from .methods.method import Estimator
 from .methods.registry import ESTIMATORS
 
+REPLAY, CONTROLLER = "replay", "controller"
+SOURCES = (REPLAY, CONTROLLER)
 SOLVERS = ("clarabel", "cvxpy")
 PULL = 0.02
 """Weight of the pull towards the prior, in units of chi^2 per squared scale. A parameter that lies one scale
@@ -20,16 +22,25 @@ open goes to the prior all the same."""
 
 @dataclass(frozen=True)
 class SimulationOptions:
-    """Choose how a log is replayed for estimators that simulate."""
+    """Choose how a log is simulated for estimators that simulate."""
 
+    source: str = REPLAY
+    """What drives the robot: ``replay``, the measured torque; ``controller``, its own controller, which is
+    recognised in the log. Called ``from`` in options and results."""
     bandwidth_hz: float = 5.0
-    """Bandwidth of the controller that pulls the simulated motion to the measured one. The measured torque is
+    """Bandwidth of the controller that pulls a replayed motion to the measured one. The measured torque is
     played as it is; what the controller adds is what the model lacks."""
     substeps: int | None = None
     """Steps of the simulation per sample; if not given, as many as make a step no longer than 1 ms."""
 
     def __post_init__(self) -> None:
-        """Refuse what is no controller, or no step."""
+        """Refuse what is no source, no controller, or no step."""
+        if self.source not in SOURCES:
+            raise OptionError(
+                "a log is not simulated like that",
+                evidence={"pointer": "/options/simulation/from", "given": self.source[:50]},
+                remedy=f"give one of {', '.join(SOURCES)}",
+            )
         if not 0.01 <= self.bandwidth_hz <= 100.0 or not 1 <= (self.substeps or 1) <= 100:
             raise OptionError(
                 "the options of the simulation are not valid",
@@ -79,6 +90,11 @@ class EstimateOptions:
     def method(self) -> Estimator:
         """Give the estimator of that name."""
         return ESTIMATORS[self.estimator]
+
+    @property
+    def simulates_controllers(self) -> bool:
+        """Tell whether the logs' own controllers are simulated."""
+        return self.method.iterative and self.simulation.source == CONTROLLER
 
     def __post_init__(self) -> None:
         """Refuse unknown names and weights that are not valid."""

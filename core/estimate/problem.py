@@ -14,9 +14,11 @@ from ..regressor.factor import Factor, Weigh
 from ..regressor.memory import LaggedProducts
 from ..regressor.observe import Observation, Tiled, observe
 from ..signals.condition import Motion
+from ..simulation.controller_check import ControllerCheck
 from ..simulation.mechanism import mechanism_of
+from ..simulation.own_controller import controller_of
 from .gaussian_prior import GaussianPrior
-from .options import SimulationOptions
+from .options import CONTROLLER, SimulationOptions
 from .reversals import reversal_weights
 from .system import INSTRUMENTAL, LEAST_SQUARES, Criterion, ordinary
 
@@ -39,6 +41,17 @@ class Problem:
     def plan(self) -> ColumnPlan:
         """Choose the columns of the base parameters."""
         return ColumnPlan(self.base.model, self.base.kept)
+
+    @cached_property
+    def controllers(self) -> tuple[ControllerCheck, ...]:
+        """Find the controller of every log.
+
+        Raises
+        ------
+        OptionError
+            If a log does not show its controller, or none that is known.
+        """
+        return tuple(controller_of(motion.log) for motion in self.motions)
 
     def observed(
         self, progress: Callable[[float], None] | None = None, weigh: Weigh | None = None
@@ -119,24 +132,30 @@ class ObservedProblem:
         return replace(self, observation=self.problem.observed(weigh=weigh))
 
     def simulated(self, at: Parameters) -> "ObservedProblem":
-        """Take the columns of the motion that a robot of these parameters makes when a log is replayed."""
+        """Take the columns of the motion that a robot of these parameters makes."""
         problem = self.problem
-        moved = observe(problem.plan, self._replayed(at), held_out=problem.held_out)
+        moved = observe(problem.plan, self._moved(at), held_out=problem.held_out)
         return replace(self, observation=moved)
 
     def instrumented(self, at: Parameters) -> "ObservedProblem":
         """Put those columns before the measured ones, as instruments."""
         problem = self.problem
         beside = observe(
-            problem.plan, problem.motions, held_out=problem.held_out, instruments=self._replayed(at)
+            problem.plan, problem.motions, held_out=problem.held_out, instruments=self._moved(at)
         )
         return replace(self, observation=beside, criterion=INSTRUMENTAL)
 
-    def _replayed(self, at: Parameters) -> tuple[Tiled, ...]:
-        from ..simulation.replay import replay  # compiled for some ten seconds: only for who simulates
+    def _moved(self, at: Parameters) -> tuple[Tiled, ...]:
+        # Compiled for some ten seconds, hence only for who simulates.
+        from ..simulation.controlled import controlled
+        from ..simulation.replay import replay
 
-        mechanism, asked = mechanism_of(self.problem.base.model, at), self.simulation
-        return replay(mechanism, self.problem.motions, asked.bandwidth_hz, asked.substeps)
+        problem, asked = self.problem, self.simulation
+        mechanism = mechanism_of(problem.base.model, at)
+        if asked.source == CONTROLLER:
+            controllers = [check.model for check in problem.controllers]
+            return controlled(mechanism, problem.motions, controllers, asked.substeps)
+        return replay(mechanism, problem.motions, asked.bandwidth_hz, asked.substeps)
 
     def check_excitation(self) -> None:
         """Refuse a motion in which no inertia takes any torque: every joint keeps its speed.

@@ -125,6 +125,7 @@ def judge(
         estimator=options.estimate.estimator,
         convergence=found.convergence,
         simulation=options.estimate.simulation,
+        controllers=problem.controllers if options.estimate.simulates_controllers else (),
         endogeneity=None
         if own.carried is None
         else endogeneity(own, data.factors, data.memory, data.columns_of),

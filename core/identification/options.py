@@ -91,13 +91,16 @@ BOUND_FIELDS = {
     "centre_ellipsoid": "a list of rows of a link's number, a centre and three semi-axes, m: 7 numbers each",
 }
 VALIDATION_FIELDS = scalar_meanings(HoldOut) | {"logs": "a list of log numbers, counted from 1"}
+SIMULATION_FIELDS = {"from": "the name of a source"} | {
+    name: meaning for name, meaning in scalar_meanings(SimulationOptions).items() if name != "source"
+}
 _SECTIONS = {
     "filter": scalar_meanings(FilterOptions),
     "validation": VALIDATION_FIELDS,
     "bootstrap": scalar_meanings(BootstrapOptions),
     "prior": PRIOR_FIELDS,
     "bounds": BOUND_FIELDS,
-    "simulation": scalar_meanings(SimulationOptions),
+    "simulation": SIMULATION_FIELDS,
     "iteration": scalar_meanings(IterationOptions),
 }
 _SCALARS = {
@@ -175,7 +178,7 @@ def _options(
             estimate=top.record(
                 EstimateOptions(),
                 bounds=_bounds(inner["bounds"]),
-                simulation=inner["simulation"].record(SimulationOptions()),
+                simulation=_simulation(inner["simulation"]),
                 iteration=inner["iteration"].record(IterationOptions()),
                 **prior,
             ),
@@ -210,6 +213,12 @@ def _rows_of_links(fields: Fields, name: str, width: int) -> list[list[float]]:
         fields.refuse(name, "holds a link number that is not whole")
     listed: list[list[float]] = rows.tolist()
     return listed
+
+
+def _simulation(fields: Fields) -> SimulationOptions:
+    """Read the section, whose source has a name that Python keeps for itself."""
+    source = fields.text("from") if fields.has("from") else SimulationOptions().source
+    return fields.record(SimulationOptions(), source=source)
 
 
 def _validation(fields: Fields, default: HoldOut) -> HoldOut:

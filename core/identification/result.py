@@ -14,6 +14,7 @@ from ..reduction.base import BaseModel
 from ..regressor.observe import Observation
 from ..robot.extent import Extent
 from ..signals.condition import Motion
+from ..simulation.controller_check import ControllerCheck
 from ..validation.excitation import ExcitationScore
 from ..validation.mass_matrix import MassMatrixCheck
 from ..validation.scores import JointScore
@@ -57,7 +58,9 @@ class Identification:
     convergence: Convergence
     """How it ended, where it takes more than one step."""
     simulation: SimulationOptions
-    """How the logs were replayed, where it simulates."""
+    """How the logs were simulated, where they were."""
+    controllers: tuple[ControllerCheck, ...]
+    """The logs' own controllers, where these drove the simulated robot."""
     endogeneity: Endogeneity | None
     """What instruments tell of errors in the measured motion; None where there are none."""
 

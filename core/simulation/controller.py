@@ -15,8 +15,8 @@ from scipy.signal import lfilter
 
 from ..arrays import JointSeries, JointVector
 from ..errors import OptionError
-from . import loop_kernel as rows
-from .loop import ControlLaw, Inputs
+from . import control_law as rows
+from .control_law import ControlLaw, Inputs
 
 Kind = Literal["pd", "cascade"]
 VelocityRule = Literal["measured", "backward", "two_tap", "central", "filtered"]

@@ -146,8 +146,18 @@ def _record(log: JointLog, saturation: tuple[float, ...] = ()) -> _Record:
     if channel == "command" and rows.torque is not None:
         scale = np.sum(command**2, axis=0)
         gain = tuple(map(float, np.sum(rows.torque * command, axis=0) / np.where(scale > 0.0, scale, 1.0)))
+        _check_gain(gain)
     saturation = tuple(map(float, limits)) if np.isfinite(limits).all() else ()
     return _Record(rows, 1.0 / log.rate_hz, command, channel, kept, gain, saturation)
+
+
+def _check_gain(gain: tuple[float, ...]) -> None:
+    if min(gain) < 0.0:
+        raise OptionError(
+            "the torque falls where the command rises, so that it is not made of it",
+            evidence={"torque_per_command": [round(value, 6) for value in gain]},
+            remedy="map the command of the logged torque, with the same sign",
+        )
 
 
 def _logged(rows: LogRows, channel: str) -> JointSeries:

@@ -10,7 +10,6 @@ order two, a row's torque differs from the controller's. Sources: see `loop_kern
 """
 
 from dataclasses import dataclass
-from typing import Self
 
 import numpy as np
 
@@ -20,38 +19,9 @@ from ..dynamics.terms.payload_change import Payload
 from ..errors import OptionError, SolverError
 from ..signals.state import MotionState
 from . import loop_kernel as rows
-from .gains import Gains
+from .control_law import ControlLaw, Inputs
 from .integrate import FASTEST, failure
 from .mechanism import Mechanism
-
-
-@dataclass(frozen=True, eq=False)
-class ControlLaw:
-    """Hold a controller as the compiled loop needs it."""
-
-    table: np.ndarray
-    """One column per joint; for its rows see `loop_kernel.LAW_ROWS`."""
-    sampled: bool
-    """Whether it acts at samples and holds its torque between them, or at every step of the integration."""
-
-    @classmethod
-    def of_joints(cls, gains: Gains) -> Self:
-        """Pull every joint to its reference at every step: u + kp (q_ref - q) + kd (dq_ref - dq)."""
-        table = np.zeros((rows.LAW_ROWS, len(gains.stiffness)))
-        table[rows.PROPORTIONAL], table[rows.DERIVATIVE] = gains.stiffness, gains.damping
-        table[rows.LIMIT] = np.inf
-        return cls(table, sampled=False)
-
-
-@dataclass(frozen=True, eq=False)
-class Inputs:
-    """Hold what the controller is given at every sample."""
-
-    feed_forward: JointSeries
-    """N m or N."""
-    position: JointSeries
-    velocity: JointSeries
-    """The reference, rad or m and per s."""
 
 
 @dataclass(frozen=True, eq=False)

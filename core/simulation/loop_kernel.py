@@ -14,6 +14,17 @@ rest: Moreau's time-stepping. Sources: Featherstone 2008, ch. 5 and 6; Hairer, L
 import numpy as np
 from numba import njit
 
+from .control_law import (
+    DERIVATIVE,
+    INTEGRAL_PLACE,
+    INTEGRAL_RATE,
+    LAST,
+    LAST_BUT_ONE,
+    LIMIT,
+    NOW,
+    POLE,
+    PROPORTIONAL,
+)
 from .factor import factorise, substitute
 from .forward import add_drives
 from .hold import couple, settle, stop
@@ -26,10 +37,6 @@ POSITION, SPEED, ACCELERATION, EARLIER, BEFORE, FILTERED, INTEGRAL, HELD, FORWAR
 last acceleration; the controller's memory: two earlier positions, filtered speed, integral, torque, and last
 inputs."""
 STATE_ROWS = 11
-PROPORTIONAL, DERIVATIVE, INTEGRAL_PLACE, INTEGRAL_RATE, LIMIT, NOW, LAST, LAST_BUT_ONE, POLE = range(9)
-"""Rows of the controller: gains, limit of its torque, and the speed it sees: factors (1/s) of three positions
-and of its last speed. Where all are zero it sees the velocity itself."""
-LAW_ROWS = 9
 
 
 @njit(inline="always")

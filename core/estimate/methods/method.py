@@ -56,7 +56,7 @@ class FitData(Protocol):
         """Pass over the motions again with every row weighted."""
 
     def simulated(self, at: Parameters) -> "FitData":
-        """Take the columns of the motion that a robot of these parameters makes when a log is replayed."""
+        """Take the columns of the motion that a robot of these parameters makes."""
 
     def instrumented(self, at: Parameters) -> "FitData":
         """Put those columns before the measured ones, as instruments."""

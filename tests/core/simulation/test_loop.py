@@ -15,9 +15,9 @@ from veritorque.core.dynamics.terms.joint_coupling import MissingCoupling
 from veritorque.core.errors import OptionError, SolverError
 from veritorque.core.robot.model import Coupling
 from veritorque.core.signals.state import MotionState
+from veritorque.core.simulation.control_law import ControlLaw, Gains, Inputs
 from veritorque.core.simulation.drive import Drive, Feedback
-from veritorque.core.simulation.gains import Gains
-from veritorque.core.simulation.loop import ControlLaw, Inputs, Loop, LoopState, Played
+from veritorque.core.simulation.loop import Loop, LoopState, Played
 from veritorque.core.simulation.mechanism import Mechanism, mechanism_of
 from veritorque.core.simulation.rollout import rollout
 from veritorque.core.simulation.stage import States, accelerations

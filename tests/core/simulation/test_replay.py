@@ -12,9 +12,8 @@ from veritorque.core.log.model import whole_rows
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.signals.condition import condition
 from veritorque.core.signals.recipe import FilterOptions
-from veritorque.core.simulation.gains import default_gains
 from veritorque.core.simulation.mechanism import mechanism_of
-from veritorque.core.simulation.replay import replay
+from veritorque.core.simulation.replay import default_gains, replay
 
 
 def deviations(mechanism, motion, bandwidth_hz=5.0):
