@@ -1,8 +1,7 @@
 """List the channels of a log in one table: names, units, usual sizes, and whether a log needs them.
 
 Default names are SI by contract. Every other column declares its unit, because a wrong guess would be a wrong
-robot. The reference channels are what a controller asked for: they are read, shown and kept, and no
-computation uses them yet.
+robot. The reference channels are what a controller asked for: by them it is recognised and simulated.
 """
 
 from dataclasses import dataclass
