@@ -143,12 +143,13 @@ def stacked(
 ) -> System:
     """Stack the joints' factors, each divided by its noise."""
     width = criterion.width(base)
-    rows = [np.zeros((width, width))]  # so that few rows are made triangular and square too
+    rows = list[Matrix]()
     for factor, columns, sigma in zip(factors, columns_of, noise, strict=True):
         wide = np.zeros((len(factor.triangle), width))
         wide[:, criterion.place(columns, base)] = factor.triangle / sigma
         rows.append(wide)
-    whole = Factor.of(np.vstack([*rows, np.zeros((1, width))])).triangle
+    rows.append(np.zeros((width + 1, width)))  # so that few rows are made triangular and square too
+    whole = Factor.of(np.vstack(rows)).triangle
     return criterion.system(whole, sum(factor.rows for factor in factors), noise)
 
 
