@@ -17,6 +17,7 @@ NAMES = (
     "nelder_mead",
     "bootstrap",
     "coverage",
+    "estimators",
     "diagnosis",
     "measured",
     "uploads",

@@ -1,70 +1,19 @@
 """What simulated columns are for: arms that stick, and noisy encoders, in an engine that is not ours."""
 
-from collections.abc import Mapping
-from functools import cache
-
 import numpy as np
 import pytest
 
-from tests.plant.cases import World, draw_world
-from veritorque.core.dynamics.model import standard_model
-from veritorque.core.log.reader import log_from_arrays
-from veritorque.core.reduction.base import base_model
-from veritorque.core.regressor.columns import ColumnPlan, dense
-from veritorque.core.signals.state import MotionState
-from veritorque.core.study import IdentifyRequest, identify_in_full
+from tests.core.estimate.sticking_arm import scene
 
-SEED, STATES = 708, 2000
-
-
-@cache
-def world(robot: str) -> World:
-    """Draw an arm that sticks at its reversals."""
-    rng = np.random.default_rng([SEED, 0])
-    return draw_world(rng, SEED, robot=robot, noise="white", duration=10.0, rate_hz=1000.0)
-
-
-def truth(robot: str, names: list[str]) -> np.ndarray:
-    """Give the standard parameters of those names: bodies in the order of the links, drives by name."""
-    arm = world(robot).arm
-    parts = (("IA", arm.rotor_inertia), ("FV", arm.viscous), ("FC", arm.coulomb), ("OFF", arm.offset))
-    drives = {f"{symbol}{joint + 1}": part[joint] for symbol, part in parts for joint in range(len(part))}
-    bodies = iter(arm.bodies.ravel())
-    return np.array([float(drives[name]) if name in drives else float(next(bodies)) for name in names])
+QUIET = 0.02
+"""Share of the plant's usual noise of torques, so that other errors are the largest."""
 
 
 def torque_error(robot: str, encoder_deg: float, estimator: str, draws: int = 1, **options: object) -> float:
-    """Give the RMS error over draws of noise."""
-    errors = [drawn_error(robot, encoder_deg, estimator, seed, options) for seed in range(draws)]
-    return float(np.sqrt(np.mean(np.square(errors))))
-
-
-def drawn_error(
-    robot: str, encoder_deg: float, estimator: str, seed: int, options: Mapping[str, object]
-) -> float:
-    """Give the error of the torque predicted for motions that were not seen, % of its RMS, joints alike."""
-    own = world(robot)
-    signals, rng = own.signals(()), np.random.default_rng(seed)
-    position = signals.position + np.deg2rad(encoder_deg) * rng.normal(size=signals.position.shape)
-    torque = signals.torque + 0.02 * own.noise_rms * rng.normal(size=signals.torque.shape)
-    log = log_from_arrays("noisy", signals.time, position, torque)
-    asked = {"estimator": estimator, "bootstrap": {"draws": 0}, **options}
-    found = identify_in_full(IdentifyRequest(own.arm.robot, (log,), asked)).estimate.base
-    model = standard_model(own.arm.robot)
-    base = base_model(model)
-    true = base.base_of(truth(robot, [parameter.name for parameter in model.parameters]))
-    velocity = np.gradient(signals.position, signals.time, axis=0)
-    acceleration = np.gradient(velocity, signals.time, axis=0)
-    joints = len(own.arm.viscous)
-    drawn = rng.normal(size=(2, STATES, joints))
-    state = MotionState(
-        rng.uniform(-1.5, 1.5, (STATES, joints)),
-        drawn[0] * velocity.std(axis=0),
-        drawn[1] * acceleration.std(axis=0),
-    )
-    columns = dense(ColumnPlan(model, base.kept), state)
-    missed, whole = (np.reshape(columns @ part, (STATES, -1)) for part in (found - true, true))
-    return float(100.0 * np.sqrt(np.mean((missed / np.sqrt(np.mean(whole**2, axis=0))) ** 2)))
+    """Give the RMS error over draws of noise, %."""
+    own = scene(robot)
+    logs = (own.log(encoder_deg, QUIET, seed) for seed in range(draws))
+    return float(np.sqrt(np.mean([own.error(own.estimated(log, estimator, options)) ** 2 for log in logs])))
 
 
 @pytest.mark.parametrize("robot", ["planar-2", "ur10e"])
