@@ -44,6 +44,9 @@ def main(arguments: Sequence[str]) -> int:
     """Fit, check, print, and write if so asked."""
     asked = _arguments(arguments)
     fitted, checked = (_samples(seeds, asked.cases, asked.keep) for seeds in (asked.fit, asked.check))
+    if len({sample.right for sample in fitted}) < 2:
+        sys.stdout.write(f"{len(fitted)} findings were all right or all wrong: no model fits; ask for more\n")
+        return 1
     found = fit(fitted)
     provenance = {
         "fitted_on": {"seeds": asked.fit, "cases_per_seed": asked.cases, "findings": len(fitted)},
