@@ -28,7 +28,10 @@ def _simulation(found: Identification) -> dict[str, object]:
     """Say what drove the simulated robot along the logs."""
     asked = found.simulation
     source = {"from": asked.source, "bandwidth_hz": asked.bandwidth_hz, "substeps": asked.substeps}
-    return source | {"controllers": [_controller(check) for check in found.controllers]}
+    return source | {
+        "position_rms": found.position_rms,
+        "controllers": [_controller(check) for check in found.controllers],
+    }
 
 
 def _controller(check: ControllerCheck) -> dict[str, object]:

@@ -145,6 +145,17 @@ class ObservedProblem:
         )
         return replace(self, observation=beside, criterion=INSTRUMENTAL)
 
+    def position_rms(self, at: Parameters) -> JointVector:
+        """Give the RMS of a robot's simulated less the measured positions at usable samples, rad or m."""
+        squares, counts = np.zeros((2, len(self.columns_of)))
+        for motion, other in zip(self.problem.motions, self._moved(at), strict=True):
+            for tile, moved in zip(motion.tiles(), other.tiles(), strict=True):
+                at_kept = tile.first + tile.parallel.decimation * np.arange(len(tile.time))
+                apart = (moved.state.position - tile.state.position)[at_kept]
+                squares += np.sum(tile.usable * apart**2, axis=0)
+                counts += tile.usable.sum(axis=0)
+        return np.asarray(np.sqrt(squares / np.maximum(counts, 1.0)))
+
     def _moved(self, at: Parameters) -> tuple[Tiled, ...]:
         # Compiled for some ten seconds, hence only for who simulates.
         from ..simulation.controlled import controlled

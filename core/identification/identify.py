@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ..arrays import BaseParameters
+from ..arrays import BaseParameters, JointVector
 from ..estimate.constraints import default_prior
 from ..estimate.estimate import Estimate, estimate
 from ..estimate.feasibility import active_constraints, feasibility
@@ -45,6 +45,8 @@ class Fit:
     estimate: Estimate
     convergence: Convergence
     """How an iterative estimator ended."""
+    position_rms: JointVector | None
+    """RMS of its simulated less the measured positions, rad or m; None where nothing was simulated."""
 
 
 def fit(
@@ -67,7 +69,8 @@ def fit(
     step, found, convergence = converge(
         asked.method, data, solve, asked.iteration, lambda done: tell("simulate", 0.6 + 0.1 * done)
     )
-    return Fit(problem, observation, step, found, convergence)
+    apart = data.position_rms(found.standard) if asked.method.iterative else None
+    return Fit(problem, observation, step, found, convergence, apart)
 
 
 def judge(
@@ -126,6 +129,7 @@ def judge(
         convergence=found.convergence,
         simulation=options.estimate.simulation,
         controllers=problem.controllers if options.estimate.simulates_controllers else (),
+        position_rms=found.position_rms,
         endogeneity=None
         if own.carried is None
         else endogeneity(own, data.factors, data.memory, data.columns_of),

@@ -61,6 +61,8 @@ class Identification:
     """How the logs were simulated, where they were."""
     controllers: tuple[ControllerCheck, ...]
     """The logs' own controllers, where these drove the simulated robot."""
+    position_rms: JointVector | None
+    """RMS of simulated less measured positions, rad or m; None where nothing was simulated."""
     endogeneity: Endogeneity | None
     """What instruments tell of errors in the measured motion; None where there are none."""
 
