@@ -10,7 +10,7 @@ from veritorque.core.errors import OptionError
 from veritorque.core.estimate.constraints import CentreBox, CentreEllipsoid, LinkSize
 from veritorque.core.identification.options import parse_diagnose_options, parse_options
 
-SECTIONS = ("filter", "validation", "bootstrap", "bounds", "prior")
+SECTIONS = ("filter", "validation", "bootstrap", "bounds", "prior", "simulation", "iteration")
 
 
 def test_no_options_give_the_defaults():
@@ -163,6 +163,18 @@ WRONG = [
     {"bounds": {"exempt": [1]}},
     {"bounds": {"centre_box": [[1, 1, 1, 1, 0, 0, 0]]}},
     {"bounds": {"centre_ellipsoid": [[1, 0, 0, 0, 0, 1, 1]]}},
+    {"simulation": {"bandwidth_hz": 2.0}},
+    {"iteration": {"most": 3}},
+    {"estimator": "iv", "robust": True},
+    {"estimator": "iv", "simulation": {"from": 3}},
+    {"estimator": "iv", "simulation": {"from": "guess"}},
+    {"estimator": "iv", "simulation": {"source": "replay"}},
+    {"estimator": "iv", "simulation": {"bandwidth_hz": 0.0}},
+    {"estimator": "iv", "simulation": {"substeps": 0}},
+    {"estimator": "iv", "simulation": {"substeps": True}},
+    {"estimator": "iv", "simulation": {"substeps": 101}},
+    {"estimator": "iv", "iteration": {"most": 0}},
+    {"estimator": "iv", "iteration": {"tolerance": 0.0}},
 ]
 
 
@@ -185,6 +197,20 @@ def test_a_diagnosis_that_would_hold_nothing_out_is_refused_where_an_identificat
     assert parse_options({"validation": validation}).validation.chosen(1) == frozenset()
     with pytest.raises(OptionError, match="held-out data"):
         parse_diagnose_options({"validation": validation})
+
+
+@pytest.mark.parametrize("estimator", ["iv", "didim"])
+def test_a_diagnosis_by_an_estimator_that_simulates_is_refused_where_an_identification_is_not(estimator):
+    asked = {
+        "estimator": estimator,
+        "simulation": {"from": "controller", "substeps": 3},
+        "iteration": {"most": 4},
+    }
+    options = parse_options(asked).estimate
+    assert options.simulates_controllers
+    assert (options.simulation.substeps, options.iteration.most) == (3, 4)
+    with pytest.raises(OptionError, match="cannot be fitted by"):
+        parse_diagnose_options({"estimator": estimator})
 
 
 def test_a_diagnosis_may_hold_whole_logs_out_instead_of_blocks():
