@@ -58,6 +58,7 @@ def admit(options: IdentifyOptions, model: DynamicModel, logs: Sequence[KnownLog
             options.filter.check_log(log.rate_hz, log.duration)
             _check_instants(options, log)
             _check_channels(options.estimate.method, log)
+            _check_controller(options, log)
             check_currents(model.robot, log.channels, log.name)
         except VeritorqueError as error:
             error.evidence.setdefault("log", log.name)
@@ -73,6 +74,21 @@ def _check_channels(estimator: Estimator, log: KnownLog) -> None:
             f"the estimator {estimator.name} needs channels that the log does not have",
             evidence={"missing": missing, "channels": list(log.channels)},
             remedy=f"log {', '.join(missing)}, or ask for one that does without: {', '.join(others)}",
+        )
+
+
+def _check_controller(options: IdentifyOptions, log: KnownLog) -> None:
+    """Refuse to simulate the controller of a log that does not show what it was given and asked for."""
+    if not options.estimate.simulates_controllers:
+        return
+    missing = [name for name in ("position_ref", "torque") if name not in log.channels]
+    if not {"command", "torque_ref"} & set(log.channels):
+        missing.append("command or torque_ref")
+    if missing:
+        raise OptionError(
+            "the log does not show its controller, which was to be simulated",
+            evidence={"missing": missing, "channels": list(log.channels)},
+            remedy=f"log {', '.join(missing)}, or simulate by replay",
         )
 
 

@@ -37,11 +37,21 @@ DOES_NOT_FIT = [
     {"terms": ["viscous"], "bounds": {"total_mass": [1.0, 2.0]}},
     {"terms": ["coupling"]},
     {"validation": {"logs": [1]}},
+    {"estimator": "iv", "simulation": {"from": "controller"}},
 ]
 
 
 def judged(options, logs):
     admit(options, standard_model(ROBOT, options.terms), logs)
+
+
+@pytest.mark.parametrize("asked", ["command", "torque_ref"])
+def test_a_controller_may_be_simulated_where_the_log_shows_it(asked):
+    options = parse_options({"estimator": "iv", "simulation": {"from": "controller"}})
+    judged(options, [replace(LOG, channels=("position", "torque", "position_ref", asked))])
+    with pytest.raises(OptionError, match="does not show its controller") as refusal:
+        judged(options, [replace(LOG, channels=("position", "current", "position_ref"))])
+    assert refusal.value.evidence["missing"] == ["torque", "command or torque_ref"]
 
 
 @pytest.mark.parametrize("options", FITS, ids=repr)
