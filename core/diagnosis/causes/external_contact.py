@@ -96,8 +96,8 @@ class ExternalContact(OwnJointCause):
             edge = EVENTS.edge * min(contact.doubt, 1.0) * (contact.span[1] - contact.span[0])
             found += [
                 Quantity(f"force_{number}", solved.site[0], "N", contact.force, contact.deviation),
-                Quantity(f"start_{number}", None, "s", contact.span[0], edge),
-                Quantity(f"end_{number}", None, "s", contact.span[1], edge),
+                Quantity(f"start_{number}", None, "s", contact.span[0], edge, is_instant=True),
+                Quantity(f"end_{number}", None, "s", contact.span[1], edge, is_instant=True),
             ]
         return tuple(found)
 

@@ -79,7 +79,7 @@ class PayloadChange(OwnJointCause):
             if deviation < ADMISSIBLE.payload_centre:
                 found.append(Quantity(f"com_{axis}", joint, "m", centre, deviation))
         when = [
-            Quantity("time", None, "s", time, solved.deviations.get("time", 0.0))
+            Quantity("time", None, "s", time, solved.deviations.get("time", 0.0), is_instant=True)
             for time in solved.scalars.values()
         ]
         return (*found, *when)

@@ -40,6 +40,8 @@ class Quantity:
     unit: str
     value: float
     standard_deviation: float
+    is_instant: bool = False
+    """Whether it says when the effect begins or ends, and not how large it is."""
 
     @property
     def text(self) -> str:

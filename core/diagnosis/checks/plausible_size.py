@@ -1,7 +1,8 @@
 """Tell whether the size of a cause makes sense beside the log, whatever the likelihood says.
 
 A cause whose torque exceeds all the torque of its joint is cancelled by another column: it stands for a
-direction that the motion leaves open. A cause none of whose numbers exceeds its deviation has no size. What
+direction that the motion leaves open. A cause none of whose numbers exceeds its deviation has no size; the
+instant from which on it acts is none, however well it is known. What
 the motion contradicts, a cause says itself.
 """
 
@@ -48,5 +49,5 @@ def _stood_for(speed: Samples, effect: Samples) -> Samples:
 
 def _is_determined(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> bool:
     cause, solved = chosen.members[index].cause, chosen.in_joint_units(index, fitter.dataset.robot)
-    quantities = cause.quantities(solved)
-    return not quantities or bool(np.max([quantity.clearness for quantity in quantities]) > 1.0)
+    sizes = [quantity for quantity in cause.quantities(solved) if not quantity.is_instant]
+    return not sizes or bool(np.max([quantity.clearness for quantity in sizes]) > 1.0)
