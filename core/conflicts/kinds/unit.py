@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from ...log.channels import POSITIONS
+from ...log.channels import POSITIONS, TORQUES
 from ...robot.joint_units import joint_unit
 from ..conflict import Conflict, Hypothesis
 from ..setup import Setup
@@ -31,17 +31,27 @@ class Unit(Conflict):
         if len(turning) > 1:
             yield from self._of_positions(setup, trials, turning, "the positions of all joints are")
         for joint in range(setup.joints):
-            yield from self._of_effort(setup, joint)
+            yield from self._of_effort(setup, trials, joint)
         for joint in range(setup.joints):
             yield from self._of_positions(setup, trials, (joint,), f"the position of joint {joint + 1} is")
 
-    def _of_effort(self, setup: Setup, joint: int) -> Iterator[Hypothesis]:
-        what = f"the torque of joint {joint + 1}"
+    def _of_effort(self, setup: Setup, trials: Trials, joint: int) -> Iterator[Hypothesis]:
+        """Try units in which a torque is as large as torques are; expected where it is not as declared."""
+        what, torque = f"the torque of joint {joint + 1}", setup.assignment.torque
+        declared = joint_unit(setup.robot, joint + 1, "N m")
+        largest = float(np.max(np.abs(torque.of(trials.samples.torque)[:, joint])))
+        most = next(unit.usual[1] for unit in TORQUES.units if unit.name == declared)
         for prefix, factor in _PREFIXES.items():
-            unit = prefix + joint_unit(setup.robot, joint + 1, "N m")
-            changed = setup.with_torque(setup.assignment.torque.scaled(factor, joint))
-            says, remedy = f"{what} is in {unit}", f"declare {what} in {unit}"
-            yield Hypothesis(self.name, (joint + 1,), "torque", changed, says, remedy)
+            if factor < 1.0 or factor * largest <= most:
+                yield Hypothesis(
+                    self.name,
+                    (joint + 1,),
+                    "torque",
+                    setup.with_torque(torque.scaled(factor, joint)),
+                    f"{what} is in {prefix}{declared}",
+                    f"declare {what} in {prefix}{declared}",
+                    expected=largest > most,
+                )
 
     def _of_positions(
         self, setup: Setup, trials: Trials, joints: tuple[int, ...], what: str

@@ -243,6 +243,17 @@ def test_a_unit_is_asked_for_where_numbers_are_unusual_though_the_fit_is_good():
     assert found["error_before_percent"] < 10.0
 
 
+def test_of_two_torques_that_differ_by_a_thousand_the_one_of_an_unusual_size_is_in_another_unit():
+    """The log alone tells their ratio only: either may be wrong."""
+    case = draw_clean(64009, noise="white", robot="planar-2", duration=15.0)
+    plain = Assignment.as_measured(2)
+    rows = whole_rows(assigned(case.log, replace(plain, torque=plain.torque.scaled(1000.0, 1))))
+    log = log_from_arrays("thousandths", rows.time, rows.position, rows.torque)
+    (found,) = identify(IdentifyRequest(case.believed, (log,), PLAIN))["conflicts"]
+    assert (found["conflict"], found["joints"]) == ("unit", [2])
+    assert "mN m" in found["statement"]
+
+
 def test_a_joint_that_only_impossible_bodies_follow_is_no_place_for_causes(arm):
     robot, log, _ = arm
     plain = Assignment.as_measured(4)
