@@ -41,7 +41,8 @@ class SimulationOptions:
                 evidence={"pointer": "/options/simulation/from", "given": self.source[:50]},
                 remedy=f"give one of {', '.join(SOURCES)}",
             )
-        if not 0.01 <= self.bandwidth_hz <= 100.0 or not 1 <= (self.substeps or 1) <= 100:
+        substeps = 1 if self.substeps is None else self.substeps
+        if not 0.01 <= self.bandwidth_hz <= 100.0 or not 1 <= substeps <= 100:
             raise OptionError(
                 "the options of the simulation are not valid",
                 evidence={"bandwidth_hz": self.bandwidth_hz, "substeps": self.substeps},

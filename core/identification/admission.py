@@ -58,6 +58,8 @@ def admit(options: IdentifyOptions, model: DynamicModel, logs: Sequence[KnownLog
             options.filter.check_log(log.rate_hz, log.duration)
             _check_instants(options, log)
             _check_channels(options.estimate.method, log)
+            if options.estimate.simulates_controllers:
+                _check_references(log)
             check_currents(model.robot, log.channels, log.name)
         except VeritorqueError as error:
             error.evidence.setdefault("log", log.name)
@@ -73,6 +75,20 @@ def _check_channels(estimator: Estimator, log: KnownLog) -> None:
             f"the estimator {estimator.name} needs channels that the log does not have",
             evidence={"missing": missing, "channels": list(log.channels)},
             remedy=f"log {', '.join(missing)}, or ask for one that does without: {', '.join(others)}",
+        )
+
+
+def _check_references(log: KnownLog) -> None:
+    """Refuse to look for the controller of a log that does not show what it was given, or what it did."""
+    missing = [channel for channel in ("position_ref", "torque") if channel not in log.channels]
+    if not {"command", "torque_ref"} & set(log.channels):
+        missing.append("command")
+    if missing:
+        raise OptionError(
+            "the log does not show what its controller did",
+            evidence={"missing": missing, "channels": list(log.channels)},
+            remedy="log the torque, the reference of the position, and the command or the torque that was "
+            "asked for; or simulate by replay",
         )
 
 

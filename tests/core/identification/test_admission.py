@@ -24,6 +24,7 @@ FITS = [
     {"filter": {"decimation": 250}},
     {"bounds": {"mass": [[2, 1.0, 2.0]], "total_mass": [0.0, 1.0]}},
     {"terms": ["viscous"]},
+    {"estimator": "iv"},
 ]
 DOES_NOT_FIT = [
     {"filter": {"cutoff_hz": 125.0}},
@@ -37,6 +38,7 @@ DOES_NOT_FIT = [
     {"terms": ["viscous"], "bounds": {"total_mass": [1.0, 2.0]}},
     {"terms": ["coupling"]},
     {"validation": {"logs": [1]}},
+    {"estimator": "iv", "simulation": {"from": "controller"}},
 ]
 
 
