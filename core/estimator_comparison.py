@@ -8,7 +8,7 @@ from dataclasses import replace
 from .document.conflicts import conflict_rows, with_conflicts
 from .document.estimator_comparison import comparison_document
 from .document.version import product_version
-from .identification.comparison import fit_by, options_for, read_estimators
+from .identification.comparison import BEGINNING, fit_by, options_for, read_estimators, read_options
 from .identification.identify import Progress, no_progress
 from .numerics.threads import on_one_thread
 from .study import IdentifyRequest, identify_with_conflicts
@@ -24,7 +24,8 @@ def compare_estimators(request: IdentifyRequest, progress: Progress | None = Non
         Whatever stands in the way of all of them, with cause, evidence and remedy.
     """
     tell, names = progress or no_progress, read_estimators(request.options)
-    plain = options_for(request.options, "sdp") | {"bootstrap": {"draws": 0}}
+    read_options(request.options)
+    plain = options_for(request.options, BEGINNING) | {"bootstrap": {"draws": 0}}
     begun, conflicts = identify_with_conflicts(
         replace(request, options=plain, traces=None), lambda stage, done: tell(stage, 0.4 * done)
     )

@@ -133,12 +133,12 @@ def _settle(
 ) -> _Settled:
     """Fit once, correct what robot and logs disagree in, and fit again where there is any such thing.
 
-    A wrong unit, say, may let the first fit fail.
+    A wrong unit, say, may let the first fit fail, or hide the controller that is to be simulated.
     """
     problem, logs = _prepare(task, tell, reference), task.asked.logs
     try:
         first = fit(problem, task.options, tell)
-    except SolverError as error:
+    except (OptionError, SolverError) as error:
         conflicts, corrected = _corrected(task, problem, tell, reference, doubted=True)
         if corrected is None:
             raise because_of(conflict_rows(conflicts, task.asked.robot, logs), error) from None

@@ -46,13 +46,10 @@ class Compare(Identify):
     has_report = False
 
     def read_options(self, options: Document) -> "IdentifyOptions":
-        """Read the options of the first estimator; the others' differ in what acts on them."""
-        from ...core.identification.comparison import options_for, read_estimators
-        from ...core.identification.options import parse_options
+        """Read the options of every estimator; gives those by which all of them begin."""
+        from ...core.identification.comparison import read_options
 
-        names = read_estimators(options)
-        parsed = [parse_options(options_for(options, name)) for name in names]
-        return parsed[0]
+        return read_options(options)
 
     def compute(self, inputs: Inputs, progress: Progress) -> Document:
         """Fit by every estimator."""

@@ -9,7 +9,7 @@ from ..conflicts.check import Conflicts
 from ..conflicts.conflict import Hypothesis
 from ..conflicts.path import FoundConflict
 from ..conflicts.setup import Setup
-from ..errors import SolverError
+from ..errors import VeritorqueError
 from ..log.columns.assignment import assigned, mapping_of
 from ..log.model import JointLog
 from ..robot.joint_units import prismatic_numbers
@@ -53,11 +53,11 @@ def conflict_sentence(row: dict[str, object]) -> str:
     )
 
 
-def because_of(rows: list[dict[str, object]], failure: SolverError) -> SolverError:
+def because_of(rows: list[dict[str, object]], failure: VeritorqueError) -> VeritorqueError:
     """Name the conflicts that stand before a fit which failed; the failure itself where there are none."""
     if not rows:
         return failure
-    return SolverError(
+    return type(failure)(
         failure.cause,
         evidence=failure.evidence | {"conflicts": [row["statement"] for row in rows]},
         remedy=f"robot and log disagree: {'; '.join(str(row['remedy']) for row in rows)}",

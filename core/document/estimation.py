@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from ..estimate.methods.registry import ESTIMATORS
 from ..identification.result import Identification
-from ..precision.endogeneity import Endogeneity
+from ..precision.endogeneity import CHANCE, Endogeneity
 from ..simulation.controller_check import ControllerCheck
 
 
@@ -50,7 +50,8 @@ def _statements(found: Identification) -> Iterator[str]:
     for number, check in enumerate(found.controllers, start=1):
         yield _recognised(number, check)
     if method.iterative:
-        yield f"It simulated the logs {len(ended.steps)} times: {ended.reason}."
+        steps = len(ended.steps)
+        yield f"It simulated the logs {steps} time{'s' * (steps != 1)}: {ended.reason}."
     if found.endogeneity is not None:
         yield _difference(found.endogeneity)
 
@@ -66,7 +67,9 @@ def _recognised(number: int, check: ControllerCheck) -> str:
 
 
 def _difference(told: Endogeneity) -> str:
-    matters = "which matters" if told.largest > 1.0 else "less than the uncertainty"
+    matters = "less than the uncertainty"
+    if told.largest > 1.0:
+        matters = "which may be chance" if told.p_value > CHANCE else "which matters"
     weak = f" The weakest instrument has a correlation of {told.weakest:.2g}." if told.weakest < 0.5 else ""
     return (
         f"The largest difference of a parameter to least squares is {told.largest:.2g} standard deviations, "

@@ -4,20 +4,30 @@ An estimator that fails is a row of the table like any other: it says why.
 """
 
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from ..errors import ExcitationError, LogError, OptionError, SolverError, VeritorqueError
+from ..estimate.methods.method import Estimator
 from ..estimate.methods.registry import ESTIMATORS
 from ..estimate.problem import Problem
 from ..simulation.mechanism import mechanism_of
 from ..simulation.multistep import MultiStep, predict_motion
 from .identify import fit, judge, no_progress
-from .options import parse_options
+from .options import IdentifyOptions, parse_options
 from .result import Identification
 
 COMPARE = "compare"
 """Option: the names of the estimators."""
+BEGINNING = "sdp"
+"""Estimator by which robot and logs are held against each other before any is compared."""
+_ACTS: Mapping[str, Callable[[Estimator], bool]] = {
+    "bounds": lambda method: method.feasible,
+    "robust": lambda method: method.row_weights,
+    "simulation": lambda method: method.iterative,
+    "iteration": lambda method: method.iterative,
+}
+"""Options that do not act on every estimator."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,17 +72,32 @@ def read_estimators(options: Mapping[str, object]) -> tuple[str, ...]:
     return tuple(listed)
 
 
+def read_options(options: Mapping[str, object]) -> IdentifyOptions:
+    """Read a comparison's options, of every estimator; gives those by which all of them begin.
+
+    Raises
+    ------
+    OptionError
+        If an option is not valid, or acts on none of the estimators.
+    """
+    names = read_estimators(options)
+    for name in names:
+        parse_options(options_for(options, name))
+    for key, acts in _ACTS.items():
+        if not any(acts(ESTIMATORS[name]) for name in names):
+            parse_options({"estimator": names[0], key: options.get(key)})
+    return parse_options(options_for(options, BEGINNING))
+
+
 def options_for(options: Mapping[str, object], name: str) -> dict[str, object]:
     """Give a comparison's options for one estimator: without those that have no effect on it."""
     method = ESTIMATORS[name]
-    acts = {
-        "bounds": method.feasible,
-        "robust": method.row_weights,
-        "simulation": method.iterative,
-        "iteration": method.iterative,
-        COMPARE: False,
-    }
-    return {key: value for key, value in options.items() if acts.get(key, True)} | {"estimator": name}
+    idle = {COMPARE, *(key for key, acts in _ACTS.items() if not acts(method))}
+    own = {key: value for key, value in options.items() if key not in idle}
+    prior = own.get("prior")
+    if isinstance(prior, Mapping) and not method.feasible:
+        own["prior"] = {key: value for key, value in prior.items() if key != "entropy"}
+    return own | {"estimator": name}
 
 
 def fit_by(name: str, options: Mapping[str, object], begun: Identification) -> Compared:

@@ -76,7 +76,8 @@ def converge(
             return step, found, Convergence(converged=True, reason=reason, steps=tuple(steps))
         at, base = at + share * (found.standard - at), base + share * (found.base - base)
     last = f"the last one changed the torque by {steps[-1].change:.2g} of its RMS"
-    reason = f"{options.most} steps were taken, and {last}"
+    taken = "one step was" if options.most == 1 else f"{options.most} steps were"
+    reason = f"{taken} taken, and {last}"
     return step, found, Convergence(converged=False, reason=reason, steps=tuple(steps))
 
 

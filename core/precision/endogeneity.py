@@ -11,12 +11,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import BaseParameters, Indices, Matrix
-from ..estimate.system import System, solved_by, stacked
+from ..estimate.system import RANK_TOLERANCE, System, column_scale, solved_by, stacked
 from ..numerics.chi2_tail import log_chi2_tail
 from ..regressor.factor import INSTRUMENT, Factor
 from ..regressor.memory import LaggedProducts
 from .inference import inverse_information
 
+CHANCE = 0.05
+"""Probability above which a difference is not told from chance. By convention: Fisher 1925."""
 NO_DIFFERENCE = 1e-6
 """Variance, in units of least squares' own, below which a direction of the difference tells rounding."""
 
@@ -31,8 +33,8 @@ class Endogeneity:
     largest: float
     """Largest difference of a base parameter, in standard deviations of least squares'."""
     weakest: float
-    """Least canonical correlation of instruments and columns: 1 where they span the same, 0 where one column
-    has no instrument."""
+    """Least canonical correlation of instruments and the columns that the motion excites: 1 where they span
+    the same, 0 where one column has no instrument."""
 
 
 def endogeneity(
@@ -67,7 +69,8 @@ def endogeneity(
     statistic, degrees = float(np.sum(along**2 / values[told])), int(np.count_nonzero(told))
     chance = float(np.exp(log_chi2_tail(statistic, degrees))) if degrees else 1.0
     shared = solved_by(least.triangle.T, system.triangle.T)
-    correlations = np.linalg.svd(shared, compute_uv=False)
+    excited = np.linalg.matrix_rank(least.triangle / column_scale(least.triangle), RANK_TOLERANCE)
+    correlations = np.linalg.svd(shared, compute_uv=False)[:excited]
     largest = float(np.max(np.abs(difference / deviation), initial=0.0))
     return Endogeneity(statistic, degrees, chance, largest, float(min(correlations.min(initial=1.0), 1.0)))
 

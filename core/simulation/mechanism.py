@@ -30,6 +30,10 @@ from .bodies import Phases, is_body, phases_of
 from .forward import Bodies
 from .inverse import bodies_of, columns
 
+NEGLIGIBLE = 1e-6
+"""A friction that lies below zero by less than this, times the largest one or 1 N m (N), is zero within the
+tolerance of a programme (1e-7, scaled)."""
+
 Parts = list[tuple[Term, Weights]]
 
 
@@ -136,8 +140,7 @@ def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:
         inertia = inertia + rotor * np.outer(weights, weights)
         damping = damping + viscous * np.outer(weights, weights)
     weights = np.vstack([np.eye(joints), *(weights[None] for weights, _ in coupled)])
-    levels = np.concatenate([drives[Coulomb], [values[2] for _, values in coupled]])
-    _check_levels(levels)
+    levels = _checked_levels(np.concatenate([drives[Coulomb], [values[2] for _, values in coupled]]))
     channel, rest = _partition(others, lambda term: term.channel)
     with_memory, of_state = _partition(rest, lambda term: term.has_memory)
     # Any term may jump where its joint stands: only a model without such terms can leave joints out.
@@ -196,13 +199,15 @@ def _couplings(
     return found
 
 
-def _check_levels(levels: np.ndarray) -> None:
-    if (levels < 0.0).any():
+def _checked_levels(levels: np.ndarray) -> np.ndarray:
+    """Give the frictions, at least zero: a solver that keeps them there does so within its tolerance."""
+    if (levels < -NEGLIGIBLE * np.abs(levels).max(initial=1.0)).any():
         raise OptionError(
             "a negative Coulomb friction cannot be simulated: it would drive a joint at rest both ways",
             evidence={"levels": [float(level) for level in levels]},
             remedy="estimate with the semidefinite programme, which keeps friction physical",
         )
+    return np.asarray(np.maximum(levels, 0.0))
 
 
 def share_of(robot: RobotModel, parts: Sequence[tuple[Term, Weights]]) -> Share:

@@ -25,6 +25,7 @@ def controller_of(log: JointLog) -> ControllerCheck:
         raise OptionError(
             "no known controller recomputes the log's command, so that none is simulated",
             evidence={
+                "log": log.name,
                 "nearest": best.model.kind,
                 "velocity": best.model.velocity,
                 "delay_samples": best.model.delay_samples,

@@ -14,7 +14,7 @@ from veritorque.core.errors import OptionError
 from veritorque.core.estimate.methods.registry import ESTIMATORS
 from veritorque.core.estimator_comparison import compare_estimators
 from veritorque.core.export.comparison import comparison_csv, comparison_latex
-from veritorque.core.identification.comparison import read_estimators
+from veritorque.core.identification.comparison import read_estimators, read_options
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.study import IdentifyRequest, identify
@@ -87,6 +87,36 @@ def test_a_comparison_of_less_than_two_known_estimators_is_refused(names):
 def test_one_estimator_beside_the_compared_ones_is_refused():
     with pytest.raises(OptionError, match="no option estimator"):
         read_estimators({"estimator": "iv"})
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"compare": ["ols", "iv"], "robust": 3},
+        {"compare": ["ols", "iv"], "robust": True},
+        {"compare": ["sdp", "wls"], "simulation": 7},
+        {"compare": ["sdp", "wls"], "iteration": {"most": 3}},
+        {"compare": ["ols", "wls"], "bounds": {"guess": 1}},
+        {"compare": ["sdp", "iv"], "simulation": {"substeps": 0}},
+    ],
+    ids=repr,
+)
+def test_an_option_that_is_not_valid_or_acts_on_none_of_the_estimators_is_refused(options):
+    with pytest.raises(OptionError):
+        read_options(options)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"compare": ["ols", "iv"], "robust": False, "bounds": {"plausible": False}},
+        {"compare": ["ols", "wls"], "simulation": {}, "iteration": None},
+        {"prior": {"entropy": 0.1}, "solver": "cvxpy", "robust": True, "simulation": {"bandwidth_hz": 3.0}},
+    ],
+    ids=repr,
+)
+def test_an_option_that_acts_on_some_estimators_is_taken_for_these(options):
+    assert read_options(options).estimate.estimator == "sdp"
 
 
 def test_the_table_of_parameters_leaves_as_csv_and_latex(compared):

@@ -116,3 +116,15 @@ def test_factors_of_three_groups_merge_in_any_order():
     )
     np.testing.assert_allclose(first.solved(), second.solved(), rtol=1e-10)
     np.testing.assert_allclose(first.rest, second.rest, rtol=1e-10)
+
+
+def test_a_column_that_nothing_excites_makes_no_instrument_weak():
+    values = rows(np.random.default_rng(6), 0.0)
+    values[:, [2, 5]] = 0.0
+    factors, memory = condensed(values)
+    told = endogeneity(weighted(factors, ALL, 3, INSTRUMENTAL), factors, memory, ALL)
+    assert told.weakest > 0.9
+    values[:, 1] = np.random.default_rng(7).normal(size=len(values))
+    factors, memory = condensed(values)
+    told = endogeneity(weighted(factors, ALL, 3, INSTRUMENTAL), factors, memory, ALL)
+    assert told.weakest < 0.1

@@ -24,6 +24,7 @@ FITS = [
     {"filter": {"decimation": 250}},
     {"bounds": {"mass": [[2, 1.0, 2.0]], "total_mass": [0.0, 1.0]}},
     {"terms": ["viscous"]},
+    {"estimator": "iv"},
 ]
 DOES_NOT_FIT = [
     {"filter": {"cutoff_hz": 125.0}},

@@ -107,6 +107,30 @@ def test_a_log_of_currents_or_without_references_is_refused():
         controller_of(log_from_arrays("bare", rows.time, rows.position, rows.torque))
 
 
+def test_a_controller_is_looked_for_in_the_log_whose_conflicts_are_corrected():
+    machine = world("slide")
+    _, log = driven(machine, CASCADE)
+    rows = whole_rows(log)
+    reversed_log = log_from_arrays(
+        "reversed",
+        rows.time,
+        rows.position,
+        -rows.torque,
+        position_ref=rows.position_ref,
+        command=-rows.command,
+    )
+    options = {"estimator": "iv", "simulation": {"from": "controller"}, "bootstrap": {"draws": 0}}
+    right, corrected = (
+        identify(IdentifyRequest(machine.robot, (one,), options)) for one in (log, reversed_log)
+    )
+    assert [row["conflict"] for row in corrected["conflicts"]] == ["torque_sign"]
+    np.testing.assert_allclose(
+        [row["value"] for row in corrected["base_parameters"]],
+        [row["value"] for row in right["base_parameters"]],
+        rtol=1e-9,
+    )
+
+
 @pytest.fixture(scope="module")
 def servo():
     """Give the field's servo axis and its log."""

@@ -143,6 +143,12 @@ def test_a_negative_coulomb_friction_is_refused():
         mechanism(random_robot(rng, 2), random_bodies(rng, 2), FC=-0.1)
 
 
+def test_a_coulomb_friction_that_a_solver_leaves_below_zero_is_none():
+    rng = np.random.default_rng(11)
+    robot, bodies = random_robot(rng, 2), random_bodies(rng, 2)
+    assert mechanism(robot, bodies, FC=-1e-10).levels.size == mechanism(robot, bodies, FC=0.0).levels.size
+
+
 def test_parameters_of_another_model_are_refused():
     model = standard_model(random_robot(np.random.default_rng(12), 2))
     with pytest.raises(OptionError, match="do not belong"):

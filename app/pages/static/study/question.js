@@ -23,7 +23,7 @@ export function askQuestion(container) {
       choices.estimator = value;
     }),
   );
-  const several = element("fieldset", {}, element("legend", {}, "Estimators"), ESTIMATORS.map(offer));
+  const several = element("fieldset", { class: "choices" }, element("legend", {}, "Estimators"), ESTIMATORS.map(offer));
   const missing = element("p", { class: "hint", role: "status" });
   const said = element("div", { class: "said", "aria-live": "polite" });
   const start = element("button", { type: "button", class: "primary large", on: { click: begin } }, "Start");
