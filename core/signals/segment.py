@@ -206,7 +206,7 @@ class Segment:
         index = np.arange(begin, begin + len(velocity))
         ends: SampleMask = (index < self.reach) | (index >= self.samples - self.reach)
         slow = np.abs(velocity) <= self.recipe.still_speed
-        return np.asarray(ends[:, None] | long_runs(slow, self.still_samples) | self._unmeasured)
+        return np.asarray(ends[:, None] | long_runs(slow, self.still_samples) | self.unmeasured)
 
     def _at_a_limit(self, effort: JointSeries) -> JointMask:
         """Mark the efforts at the limit of a channel that saturates: the true ones may lie beyond."""
@@ -239,7 +239,7 @@ class Segment:
         return limits
 
     @cached_property
-    def _unmeasured(self) -> np.ndarray:
+    def unmeasured(self) -> np.ndarray:
         """Mark the joints whose torque was not measured, though other joints' was."""
         silent = np.zeros(self.log.joints, dtype=bool)
         for defect in self.log.defects:

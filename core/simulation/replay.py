@@ -21,9 +21,13 @@ _POSITIONS_PER_TILE = 16
 
 @dataclass(frozen=True, eq=False)
 class Replay:
-    """Drive a robot by the torque of the log, with gains that pull it to the log's motion."""
+    """Drive a robot by the torque of the log, with gains that pull it to the log's motion.
+
+    A joint whose torque was not measured is driven by the model's own torque along the measured motion.
+    """
 
     gains: Gains
+    mechanism: Mechanism
 
     def law(self, step: float) -> ControlLaw:  # noqa: ARG002  (acts at every step of the integration)
         """Pull every joint to the measured motion."""
@@ -31,7 +35,10 @@ class Replay:
 
     def inputs(self, piece: Piece) -> Inputs:
         """Give the measured torque and motion."""
-        return Inputs(piece.torque, piece.state.position, piece.state.velocity)
+        torque, silent = piece.torque, piece.segment.unmeasured
+        if silent.any():
+            torque = np.where(silent, self.mechanism.torque(piece.state), torque)
+        return Inputs(torque, piece.state.position, piece.state.velocity)
 
 
 def default_gains(mechanism: Mechanism, position: JointSeries, bandwidth_hz: float) -> Gains:
@@ -50,5 +57,5 @@ def replay(
         for motion in motions
         for tile in motion.tiles()
     ]
-    source = Replay(default_gains(mechanism, np.vstack(positions), bandwidth_hz))
+    source = Replay(default_gains(mechanism, np.vstack(positions), bandwidth_hz), mechanism)
     return tuple(SimulatedMotion(motion, mechanism, source, substeps) for motion in motions)

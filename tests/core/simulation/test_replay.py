@@ -54,6 +54,15 @@ def test_tiles_continue_each_other_and_hold_what_is_not_simulated(arm, motion):
     assert np.all(np.abs(before.state.friction_share) <= 1.0)
 
 
+def test_a_joint_whose_torque_was_not_measured_is_driven_by_the_model(arm, motion):
+    true, rows = mechanism(*arm, FC=1.0), whole_rows(motion.log)
+    torque = rows.torque.copy()
+    torque[:, 1] = 0.0
+    log = log_from_arrays("silent", rows.time, rows.position, torque)
+    assert "missing_torque" in {defect.kind for defect in log.defects}
+    assert np.all(deviations(true, condition(log, true.robot)) < 1e-3)
+
+
 def test_a_part_behind_a_gap_begins_as_it_was_measured(arm, motion):
     rows = whole_rows(motion.log)
     kept = np.r_[0 : len(rows.time) // 2, len(rows.time) // 2 + 300 : len(rows.time)]
