@@ -43,7 +43,7 @@ def test_a_table_in_degrees_and_millimetres_is_sent_in_si(look, service):
     seen = look(service)
     page = seen.open("/new")
     page.get_by_role("radio", name="DH table").check()
-    page.get_by_role("radio", name="mm").check()
+    page.get_by_role("radio", name="mm", exact=True).check()
     page.get_by_label("Name", exact=True).fill("typed arm")
     page.get_by_role("button", name="Remove joint 3").click()
     typed = {

@@ -20,6 +20,7 @@ from .alternatives import Comparison
 from .confidence import confidence, predictors
 from .figure import curve
 from .gain import gain
+from .plausible_size import has_known_size
 
 
 def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: float) -> Finding:
@@ -47,7 +48,7 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
     margin = min(own.margin, own.over_unnamed, own.statistic - unnamed)
     evidence = predictors(own.statistic, margin, measured)
     at = Setting(dataset, fitter.operating_point, member.site, member.scalars)
-    doubtful = own.margin < 0.0 or not cause.represented(at, solved)
+    doubtful = own.margin < 0.0 or not (cause.represented(at, solved) and has_known_size(cause, solved))
     return Finding(
         cause=cause.id,
         title=cause.title,

@@ -1,15 +1,16 @@
 """Tell whether the size of a cause makes sense beside the log, whatever the likelihood says.
 
 A cause whose torque exceeds all the torque of its joint is cancelled by another column: it stands for a
-direction that the motion leaves open. A cause none of whose numbers exceeds its deviation has no size; the
-instant from which on it acts is none, however well it is known. What
+direction that the motion leaves open. A cause none of whose numbers exceeds its deviation has no size. What
 the motion contradicts, a cause says itself.
 """
+
+from collections.abc import Sequence
 
 import numpy as np
 
 from ...arrays import Samples
-from ..causes.protocol import Setting
+from ..causes.protocol import Cause, FittedCause, Quantity, Setting
 from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Hypothesis
 
@@ -49,5 +50,16 @@ def _stood_for(speed: Samples, effect: Samples) -> Samples:
 
 def _is_determined(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> bool:
     cause, solved = chosen.members[index].cause, chosen.in_joint_units(index, fitter.dataset.robot)
-    sizes = [quantity for quantity in cause.quantities(solved) if not quantity.is_instant]
-    return not sizes or bool(np.max([quantity.clearness for quantity in sizes]) > 1.0)
+    return _exceeds_deviation(cause.quantities(solved))
+
+
+def has_known_size(cause: Cause, solved: FittedCause) -> bool:
+    """Tell whether any number that says how large an effect is exceeds its deviation.
+
+    An instant says from when on it acts, and a body that is told by its mass moment alone has no mass yet.
+    """
+    return _exceeds_deviation([quantity for quantity in cause.quantities(solved) if not quantity.is_instant])
+
+
+def _exceeds_deviation(quantities: Sequence[Quantity]) -> bool:
+    return not quantities or bool(np.max([quantity.clearness for quantity in quantities]) > 1.0)

@@ -115,7 +115,8 @@ def _lost_runs(values: Samples) -> tuple[Indices, Indices]:
     leaps, usual = np.minimum(steps[:-1], steps[1:]), np.quantile(steps[others], USUAL_SHARE)
     lost = short & (leaps > max(JUMP_FACTOR * usual, GRID_STEPS * steps[others].min()))
     # A channel that passes zero has another sign behind it.
-    returns = zeros & (values[edges[:-1] - 1] * values[edges[1:]] > 0.0) & (leaps > usual)
+    same_sign = np.sign(values[edges[:-1] - 1]) * np.sign(values[edges[1:]]) > 0.0
+    returns = zeros & same_sign & (leaps > usual)
     if returns.sum() >= max(FEWEST_ZEROS, 0.5 * zeros.sum()):
         lost |= zeros
     return edges[:-1][lost], edges[1:][lost]

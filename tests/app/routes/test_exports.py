@@ -13,6 +13,7 @@ from veritorque.app.json_text import json_bytes
 from veritorque.app.services.export_files import ARTIFACTS
 from veritorque.core.document.model.model_file import read_model
 from veritorque.core.document.model.reading import identified_robot
+from veritorque.core.export.formats import FORMATS
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.urdf.read import robot_from_urdf
@@ -70,7 +71,8 @@ def results(client):
 
 
 def test_these_are_the_files_that_are_promised():
-    assert set(ARTIFACTS) == set(MEDIA_TYPES)
+    assert set(ARTIFACTS) == {*MEDIA_TYPES, "comparison.csv", "comparison.tex"}
+    assert set(FORMATS) == set(MEDIA_TYPES)
 
 
 @pytest.mark.parametrize("name", MEDIA_TYPES)
