@@ -1,10 +1,10 @@
-"""Say by which estimator a robot was fitted, how it ended, and what its instruments tell."""
+"""Say by which estimator a robot was fitted, how it ended, and how its instruments differ."""
 
 from collections.abc import Iterator
 
 from ..estimate.methods.registry import ESTIMATORS
 from ..identification.result import Identification
-from ..precision.endogeneity import CHANCE, Endogeneity
+from ..precision.endogeneity import SIGNIFICANCE, Endogeneity
 from ..simulation.controller_check import ControllerCheck
 
 
@@ -66,12 +66,12 @@ def _recognised(number: int, check: ControllerCheck) -> str:
     )
 
 
-def _difference(told: Endogeneity) -> str:
+def _difference(found: Endogeneity) -> str:
     matters = "less than the uncertainty"
-    if told.largest > 1.0:
-        matters = "which may be chance" if told.p_value > CHANCE else "which matters"
-    weak = f" The weakest instrument has a correlation of {told.weakest:.2g}." if told.weakest < 0.5 else ""
+    if found.largest > 1.0:
+        matters = "which is not significant" if found.p_value > SIGNIFICANCE else "which is significant"
+    weak = f" The weakest instrument has a correlation of {found.weakest:.2g}." if found.weakest < 0.5 else ""
     return (
-        f"The largest difference of a parameter to least squares is {told.largest:.2g} standard deviations, "
+        f"The largest difference of a parameter to least squares is {found.largest:.2g} standard deviations, "
         f"{matters}.{weak}"
     )

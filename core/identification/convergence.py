@@ -1,8 +1,8 @@
 """Repeat an estimator's step until the torque that it predicts no longer changes.
 
 Least squares needs one step. A criterion on simulated motion is written at the robot that was found last, the
-first being that of the estimator's first equations under all constraints. Every step ends in a robot that can
-exist, so that the next one can be simulated.
+first being that of the estimator's first equations under all constraints. Every step ends in a physically
+consistent robot, so that the next one can be simulated.
 """
 
 from collections.abc import Callable
@@ -48,9 +48,9 @@ def converge(
 ) -> tuple[Step, Estimate, Convergence]:
     """Give the last equations, their estimate, and how it came to it.
 
-    After a step that changes the torque more than the one before, equations are written half as far on the
-    way from the last robot to the new one: two robots may call for each other in turn. Between two robots
-    that can exist, every one can.
+    After a step that changes the torque more than the one before, the next step is damped by half: two
+    estimates may alternate. Physically consistent parameters form a convex set, so that damping leaves it
+    never.
 
     Raises
     ------

@@ -17,10 +17,10 @@ from ..regressor.factor import INSTRUMENT, Factor
 from ..regressor.memory import LaggedProducts
 from .inference import inverse_information
 
-CHANCE = 0.05
-"""Probability above which a difference is not told from chance. By convention: Fisher 1925."""
+SIGNIFICANCE = 0.05
+"""p-value above which a difference is not significant. By convention: Fisher 1925."""
 NO_DIFFERENCE = 1e-6
-"""Variance, in units of least squares' own, below which a direction of the difference tells rounding."""
+"""Variance, in units of least squares' own, below which a direction of the difference is rounding."""
 
 
 @dataclass(frozen=True)
@@ -64,9 +64,9 @@ def endogeneity(
     difference = found - least.solved()
     deviation = np.sqrt(np.maximum(np.diag(own), 1e-300))
     values, vectors = np.linalg.eigh(covariance / np.outer(deviation, deviation))
-    told = values > NO_DIFFERENCE
-    along = vectors[:, told].T @ (difference / deviation)
-    statistic, degrees = float(np.sum(along**2 / values[told])), int(np.count_nonzero(told))
+    kept = values > NO_DIFFERENCE
+    along = vectors[:, kept].T @ (difference / deviation)
+    statistic, degrees = float(np.sum(along**2 / values[kept])), int(np.count_nonzero(kept))
     chance = float(np.exp(log_chi2_tail(statistic, degrees))) if degrees else 1.0
     shared = solved_by(least.triangle.T, system.triangle.T)
     excited = np.linalg.matrix_rank(least.triangle / column_scale(least.triangle), RANK_TOLERANCE)

@@ -1,7 +1,7 @@
 """Find a log's controller: recompute its command from reference and position, structure by structure.
 
 A controller computes its command exactly, and in a stiff loop a wrong delay or velocity rule is far from it:
-the residuals of least squares tell structures apart.
+the residuals of least squares separate the structures.
 """
 
 from collections.abc import Iterator
@@ -26,7 +26,7 @@ axis with a known controller, the right structure leaves 0.24 %; with its gains 
 WORTH: Final = 0.1
 """Share of the residual that an integral has to explain: one more gain always explains some. Set by hand."""
 MOST_ROWS: Final = 30_000
-"""Rows that are looked at: 30 s at 1 kHz tell two or three gains. Set by hand."""
+"""Rows that are looked at: 30 s at 1 kHz determine two or three gains. Set by hand."""
 _CUTOFFS: Final = np.geomspace(2e-3, 0.4, 16)
 """Cut-offs from which the search begins, as shares of the rate."""
 
@@ -90,14 +90,14 @@ def check_controller(log: JointLog) -> ControllerCheck:
     Raises
     ------
     OptionError
-        If the log has no reference or no command, or no structure's gains can be told.
+        If the log has no reference or no command, or no structure's gains can be determined.
     """
     record = _record(log)
     idle = [joint + 1 for joint in range(log.joints) if record.size(joint) == 0.0]
     tried = [] if idle else [one for kind in get_args(Kind) for one in _structures(record, kind)]
     if not tried:
         raise OptionError(
-            "the log does not tell the gains of a controller",
+            "the gains of the controller cannot be determined from the log",
             evidence={"channel": record.channel, "joints_without_command": idle},
             remedy="give a log in which every joint moves beside its reference, or declare the controller",
         )
@@ -134,7 +134,7 @@ def _record(log: JointLog, saturation: tuple[float, ...] = ()) -> _Record:
     command = _logged(rows, channel)
     if np.array_equal(_logged(rows, "position_ref"), rows.position):
         raise OptionError(
-            "the log does not tell the gains of a controller",
+            "the gains of the controller cannot be determined from the log",
             evidence={"largest_error": 0.0},
             remedy="log the reference that the controller was given, and not the measured position",
         )
@@ -240,7 +240,7 @@ def _terms(record: _Record, model: ControllerModel) -> tuple[JointSeries, JointS
 
 
 def _fitted(record: _Record, blank: ControllerModel, *, integral: bool) -> Tried | None:
-    """Fit the gains of one structure; None where they cannot be told, or are none of a controller."""
+    """Fit the gains of one structure; None where they cannot be determined, or are none of a controller."""
     fits, left = [], []
     for joint, table in enumerate(_tables(record, blank, integral=integral)):
         triangle = np.asarray(np.linalg.qr(table, mode="r"))

@@ -16,7 +16,7 @@ from .mechanism import Mechanism
 from .simulated import Piece, SimulatedMotion
 
 _POSITIONS_PER_TILE = 16
-"""Positions that tell the inertia which a joint sees on its way."""
+"""Positions per tile at which the inertia of a joint is evaluated."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,23 +9,17 @@ Gautier, Janot & Vandanjon, IEEE TCST 21(2), 2013 (DIDIM).
 from dataclasses import dataclass
 
 from ...arrays import Parameters
-from .method import FitData, Step
-from .wls import joint_equations
+from .method import FitData
+from .simulating import Simulating
 
 
 @dataclass(frozen=True)
-class DirectInverse:
-    """Write the equations of weighted least squares over simulated columns."""
+class DirectInverse(Simulating):
+    """Fit simulated columns to the measured torque."""
 
     name: str = "didim"
     title: str = "simulated columns (DIDIM), physically consistent"
-    needs: tuple[str, ...] = ()
-    feasible: bool = True
-    iterative: bool = True
-    row_weights: bool = False
 
-    def equations(self, at: Parameters | None, data: FitData) -> Step:
-        """Write the equations at a robot; before there is any, those of weighted least squares."""
-        if at is None:
-            return joint_equations(data.discounted())
-        return joint_equations(data.simulated(at).discounted())
+    def with_columns(self, at: Parameters, data: FitData) -> FitData:
+        """Put the simulated columns in the place of the measured ones."""
+        return data.simulated(at).discounted()

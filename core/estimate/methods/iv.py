@@ -9,23 +9,17 @@ solved, and Z is made again with the robot that was found. Source: Janot, Vandan
 from dataclasses import dataclass
 
 from ...arrays import Parameters
-from .method import FitData, Step
-from .wls import joint_equations
+from .method import FitData
+from .simulating import Simulating
 
 
 @dataclass(frozen=True)
-class InstrumentalVariables:
+class InstrumentalVariables(Simulating):
     """Solve the equations on the span of simulated columns."""
 
     name: str = "iv"
     title: str = "instrumental variables, physically consistent"
-    needs: tuple[str, ...] = ()
-    feasible: bool = True
-    iterative: bool = True
-    row_weights: bool = False
 
-    def equations(self, at: Parameters | None, data: FitData) -> Step:
-        """Write the equations at a robot; before there is any, those of weighted least squares."""
-        if at is None:
-            return joint_equations(data.discounted())
-        return joint_equations(data.discounted().instrumented(at))
+    def with_columns(self, at: Parameters, data: FitData) -> FitData:
+        """Put the simulated columns before the measured ones."""
+        return data.discounted().instrumented(at)

@@ -129,7 +129,7 @@ def test_a_log_whose_reference_is_its_position_tells_no_controller():
     same = log_from_arrays(
         "made", state.time, state.position, torque, position_ref=state.position, command=torque
     )
-    with pytest.raises(OptionError, match="does not tell the gains"):
+    with pytest.raises(OptionError, match="cannot be determined"):
         check_controller(same)
 
 
@@ -161,7 +161,7 @@ def test_a_joint_that_nothing_was_asked_of_tells_no_gains():
     idle = log_from_arrays(
         "made", state.time, state.position, played.torque, position_ref=reference, command=none
     )
-    with pytest.raises(OptionError, match="does not tell the gains") as refused:
+    with pytest.raises(OptionError, match="cannot be determined") as refused:
         check_controller(idle)
     assert refused.value.evidence["joints_without_command"] == [1]
 
