@@ -159,14 +159,15 @@ class ObservedProblem:
     def _moved(self, at: Parameters) -> tuple[Tiled, ...]:
         # Compiled for some ten seconds, hence only for who simulates.
         from ..simulation.controlled import controlled
-        from ..simulation.replay import replay
+        from ..simulation.replay import default_gains, replay
 
         problem, asked = self.problem, self.simulation
         mechanism = mechanism_of(problem.base.model, at)
         if asked.source == CONTROLLER:
             controllers = [check.model for check in problem.controllers]
             return controlled(mechanism, problem.motions, controllers, asked.substeps)
-        return replay(mechanism, problem.motions, asked.bandwidth_hz, asked.substeps)
+        gains = default_gains(mechanism, self.observation.positions, asked.bandwidth_hz)
+        return replay(mechanism, problem.motions, gains, asked.substeps)
 
     def check_excitation(self) -> None:
         """Refuse a motion in which no inertia takes any torque: every joint keeps its speed.

@@ -15,9 +15,6 @@ from .control_law import ControlLaw, Gains, Inputs
 from .mechanism import Mechanism
 from .simulated import Piece, SimulatedMotion
 
-_POSITIONS_PER_TILE = 16
-"""Positions per tile at which the inertia of a joint is evaluated."""
-
 
 @dataclass(frozen=True, eq=False)
 class Replay:
@@ -49,13 +46,8 @@ def default_gains(mechanism: Mechanism, position: JointSeries, bandwidth_hz: flo
 
 
 def replay(
-    mechanism: Mechanism, motions: Sequence[Motion], bandwidth_hz: float, substeps: int | None = None
+    mechanism: Mechanism, motions: Sequence[Motion], gains: Gains, substeps: int | None = None
 ) -> tuple[SimulatedMotion, ...]:
-    """Replay motions with a controller of this bandwidth (Hz), the same for all."""
-    positions = [
-        tile.state.position[:: 1 + len(tile.torque) // _POSITIONS_PER_TILE]
-        for motion in motions
-        for tile in motion.tiles()
-    ]
-    source = Replay(default_gains(mechanism, np.vstack(positions), bandwidth_hz), mechanism)
+    """Replay motions with the same gains for all."""
+    source = Replay(gains, mechanism)
     return tuple(SimulatedMotion(motion, mechanism, source, substeps) for motion in motions)

@@ -16,9 +16,15 @@ from veritorque.core.simulation.mechanism import mechanism_of
 from veritorque.core.simulation.replay import default_gains, replay
 
 
+def played_again(mechanism, motion, bandwidth_hz=5.0):
+    """Replay a motion with gains for the inertia along it."""
+    positions = np.vstack([tile.state.position[::50] for tile in motion.tiles()])
+    return replay(mechanism, (motion,), default_gains(mechanism, positions, bandwidth_hz))
+
+
 def deviations(mechanism, motion, bandwidth_hz=5.0):
     """Give the RMS of simulated less measured positions, joint by joint, where samples are usable."""
-    (played,) = replay(mechanism, (motion,), bandwidth_hz)
+    (played,) = played_again(mechanism, motion, bandwidth_hz)
     apart = [
         (other.state.position - tile.state.position)[tile.first : -tile.parallel.reach]
         for other, tile in zip(played.tiles(), motion.tiles(), strict=True)
@@ -38,7 +44,7 @@ def test_a_firmer_controller_keeps_a_wrong_robot_nearer(arm, motion):
 
 
 def test_tiles_continue_each_other_and_hold_what_is_not_simulated(arm, motion):
-    (played,) = replay(mechanism(*arm, FC=1.0), (motion,), 5.0)
+    (played,) = played_again(mechanism(*arm, FC=1.0), motion)
     assert played.kept == motion.kept
     before = None
     for other, tile in zip(played.tiles(), motion.tiles(), strict=True):
@@ -68,7 +74,7 @@ def test_a_part_behind_a_gap_begins_as_it_was_measured(arm, motion):
     kept = np.r_[0 : len(rows.time) // 2, len(rows.time) // 2 + 300 : len(rows.time)]
     log = log_from_arrays("gap", rows.time[kept], rows.position[kept], rows.torque[kept])
     parted = condition(log, motion_robot(arm), FilterOptions())
-    (played,) = replay(mechanism(*arm, FC=1.0), (parted,), 5.0)
+    (played,) = played_again(mechanism(*arm, FC=1.0), parted)
     pairs = zip(played.tiles(), parted.tiles(), strict=True)
     begun = [(other, tile) for other, tile in pairs if not tile.follows]
     assert len(begun) == 2
@@ -85,7 +91,7 @@ def test_a_model_with_a_term_that_is_not_simulated_is_refused(arm, motion):
     plain = mechanism(*arm, FC=1.0)
     model = replace(plain.model, terms=(*plain.model.terms, Presliding(1, 0.01)))
     longer = np.append(plain.parameters, np.zeros(len(model.parameters) - len(plain.parameters)))
-    (played,) = replay(mechanism_of(model, longer), (motion,), 5.0)
+    (played,) = played_again(mechanism_of(model, longer), motion)
     with pytest.raises(OptionError, match="terms"):
         next(played.tiles())
 
