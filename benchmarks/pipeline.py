@@ -11,7 +11,8 @@ from benchmarks.figures import Figure, processor_seconds
 from benchmarks.peer import base_columns, pinocchio_model
 from benchmarks.scene import NOISE_SHARE, RATE_HZ, Scene, smooth_motion, yumi_arm
 from veritorque.core.log.reader import log_from_arrays
-from veritorque.core.regressor.observe import equations, observe
+from veritorque.core.regressor.observe import observe
+from veritorque.core.regressor.rows import equations
 from veritorque.core.signals.condition import Motion, condition
 from veritorque.core.signals.recipe import FilterOptions
 from veritorque.core.signals.state import MotionState

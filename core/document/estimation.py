@@ -28,6 +28,8 @@ def _simulation(found: Identification) -> dict[str, object]:
     """Say what drove the simulated robot along the logs."""
     asked = found.simulation
     source = {"from": asked.source, "bandwidth_hz": asked.bandwidth_hz, "substeps": asked.substeps}
+    if ESTIMATORS[found.estimator].free:
+        source["window_seconds"] = asked.window_seconds
     return source | {
         "position_rms": found.position_rms,
         "controllers": [_controller(check) for check in found.controllers],

@@ -32,6 +32,8 @@ class SimulationOptions:
     played as it is; what the controller adds is what the model lacks."""
     substeps: int | None = None
     """Steps of the simulation per sample; if not given, as many as make a step no longer than 1 ms."""
+    window_seconds: float = 0.2
+    """Length of the windows of free motion (``oe``), s."""
 
     def __post_init__(self) -> None:
         """Refuse what is no source, no controller, or no step."""
@@ -42,11 +44,17 @@ class SimulationOptions:
                 remedy=f"give one of {', '.join(SOURCES)}",
             )
         substeps = 1 if self.substeps is None else self.substeps
-        if not 0.01 <= self.bandwidth_hz <= 100.0 or not 1 <= substeps <= 100:
+        in_range = 0.01 <= self.bandwidth_hz <= 100.0 and 0.01 <= self.window_seconds <= 10.0
+        if not in_range or not 1 <= substeps <= 100:
             raise OptionError(
                 "the options of the simulation are not valid",
-                evidence={"bandwidth_hz": self.bandwidth_hz, "substeps": self.substeps},
-                remedy="give a bandwidth from 0.01 to 100 Hz, and 1 to 100 steps per sample",
+                evidence={
+                    "bandwidth_hz": self.bandwidth_hz,
+                    "substeps": self.substeps,
+                    "window_seconds": self.window_seconds,
+                },
+                remedy="give a bandwidth from 0.01 to 100 Hz, windows from 0.01 to 10 s, and 1 to 100 steps "
+                "per sample",
             )
 
 
@@ -132,18 +140,16 @@ class EstimateOptions:
 
     def _without_effect(self) -> list[str]:
         """List the options that have been set and would not act on this estimator."""
-        acts: Mapping[str, bool] = {
-            "bounds": self.method.feasible,
-            "entropy": self.method.feasible,
-            "robust": self.method.row_weights,
-            "simulation": self.method.iterative,
-            "iteration": self.method.iterative,
+        method, simulation, usual = self.method, self.simulation, SimulationOptions()
+        controlled = (simulation.source, simulation.bandwidth_hz) != (usual.source, usual.bandwidth_hz)
+        options: Mapping[str, tuple[bool, bool]] = {
+            "bounds": (method.feasible, self.bounds != Bounds()),
+            "entropy": (method.feasible, self.entropy > 0.0),
+            "robust": (method.row_weights, self.robust),
+            "simulation": (method.iterative, simulation != usual),
+            "simulation.from and simulation.bandwidth_hz": (not method.free, controlled),
+            "simulation.window_seconds": (method.free, simulation.window_seconds != usual.window_seconds),
+            "iteration": (method.iterative, self.iteration != IterationOptions()),
         }
-        is_set = {
-            "bounds": self.bounds != Bounds(),
-            "entropy": self.entropy > 0.0,
-            "robust": self.robust,
-            "simulation": self.simulation != SimulationOptions(),
-            "iteration": self.iteration != IterationOptions(),
-        }
-        return [name for name in acts if is_set[name] and not acts[name]]
+        without = [name for name, (acts, is_set) in options.items() if is_set and not acts]
+        return [name for name in without if not ("simulation" in without and name.startswith("simulation."))]

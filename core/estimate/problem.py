@@ -12,15 +12,19 @@ from ..reduction.base import BaseModel
 from ..regressor.columns import ColumnPlan
 from ..regressor.factor import Factor, Weigh
 from ..regressor.memory import LaggedProducts
-from ..regressor.observe import Observation, Tiled, observe
+from ..regressor.observe import Observation, observe
+from ..regressor.rows import InstrumentedRows, RowSource
 from ..signals.condition import Motion
 from ..simulation.controller_check import ControllerCheck
-from ..simulation.mechanism import mechanism_of
 from ..simulation.own_controller import controller_of
 from .gaussian_prior import GaussianPrior
 from .options import CONTROLLER, SimulationOptions
 from .reversals import reversal_weights
-from .system import INSTRUMENTAL, LEAST_SQUARES, Criterion, ordinary
+from .simulator import Simulator
+from .system import INSTRUMENTAL, LEAST_SQUARES, Criterion, ordinary, weighted
+
+CHANGE = 1e-4
+"""Change of a parameter by which simulations are differentiated: the torque it takes over that of all."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,10 +58,13 @@ class Problem:
         return tuple(controller_of(motion.log) for motion in self.motions)
 
     def observed(
-        self, progress: Callable[[float], None] | None = None, weigh: Weigh | None = None
+        self,
+        progress: Callable[[float], None] | None = None,
+        weigh: Weigh | None = None,
+        rows: RowSource | None = None,
     ) -> Observation:
-        """Pass over the motions once, with rows weighted as asked."""
-        return observe(self.plan, self.motions, held_out=self.held_out, progress=progress, weigh=weigh)
+        """Pass over the motions once, with rows weighted as asked, or with others than the measured ones."""
+        return observe(self.plan, self.motions, self.held_out, progress=progress, weigh=weigh, rows=rows)
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,21 +141,26 @@ class ObservedProblem:
     def simulated(self, at: Parameters) -> "ObservedProblem":
         """Take the columns of the motion that a robot of these parameters makes."""
         problem = self.problem
-        moved = observe(problem.plan, self._moved(at), held_out=problem.held_out)
+        moved = observe(problem.plan, self._simulator.moved(at), held_out=problem.held_out)
         return replace(self, observation=moved)
 
     def instrumented(self, at: Parameters) -> "ObservedProblem":
         """Put those columns before the measured ones, as instruments."""
-        problem = self.problem
-        beside = observe(
-            problem.plan, problem.motions, held_out=problem.held_out, instruments=self._moved(at)
-        )
-        return replace(self, observation=beside, criterion=INSTRUMENTAL)
+        rows = InstrumentedRows(self.problem.plan, self._simulator.moved(at))
+        return replace(self, observation=self.problem.observed(rows=rows), criterion=INSTRUMENTAL)
+
+    def differentiated(self, at: Parameters, output: str) -> "ObservedProblem":
+        """Take the derivatives of a simulated output, and what the log shows beyond it."""
+        measured = weighted(self.factors, self.columns_of, self.size)
+        sizes = np.linalg.norm(measured.triangle, axis=0)
+        changes = CHANGE * np.linalg.norm(measured.target) / np.where(sizes > 0.0, sizes, sizes.max())
+        rows = self._simulator.differentiated(at, output, changes)
+        return replace(self, observation=self.problem.observed(rows=rows))
 
     def position_rms(self, at: Parameters) -> JointVector:
         """Give the RMS of a robot's simulated less the measured positions at usable samples, rad or m."""
         squares, counts = np.zeros((2, len(self.columns_of)))
-        for motion, other in zip(self.problem.motions, self._moved(at), strict=True):
+        for motion, other in zip(self.problem.motions, self._simulator.moved(at), strict=True):
             for tile, moved in zip(motion.tiles(), other.tiles(), strict=True):
                 at_kept = tile.first + tile.parallel.decimation * np.arange(len(tile.time))
                 apart = (moved.state.position - tile.state.position)[at_kept]
@@ -156,18 +168,11 @@ class ObservedProblem:
                 counts += tile.usable.sum(axis=0)
         return np.asarray(np.sqrt(squares / np.maximum(counts, 1.0)))
 
-    def _moved(self, at: Parameters) -> tuple[Tiled, ...]:
-        # Compiled for some ten seconds, hence only for who simulates.
-        from ..simulation.controlled import controlled
-        from ..simulation.replay import default_gains, replay
-
+    @property
+    def _simulator(self) -> Simulator:
         problem, asked = self.problem, self.simulation
-        mechanism = mechanism_of(problem.base.model, at)
-        if asked.source == CONTROLLER:
-            controllers = [check.model for check in problem.controllers]
-            return controlled(mechanism, problem.motions, controllers, asked.substeps)
-        gains = default_gains(mechanism, self.observation.positions, asked.bandwidth_hz)
-        return replay(mechanism, problem.motions, gains, asked.substeps)
+        controllers = problem.controllers if asked.source == CONTROLLER else ()
+        return Simulator(problem.base, problem.motions, asked, controllers, self.observation.positions)
 
     def check_excitation(self) -> None:
         """Refuse a motion in which no inertia takes any torque: every joint keeps its speed.

@@ -23,11 +23,15 @@ BEGINNING = "sdp"
 """Estimator by which robot and logs are held against each other before any is compared."""
 _ACTS: Mapping[str, Callable[[Estimator], bool]] = {
     "bounds": lambda method: method.feasible,
+    "prior.entropy": lambda method: method.feasible,
     "robust": lambda method: method.row_weights,
     "simulation": lambda method: method.iterative,
+    "simulation.from": lambda method: method.iterative and not method.free,
+    "simulation.bandwidth_hz": lambda method: method.iterative and not method.free,
+    "simulation.window_seconds": lambda method: method.free,
     "iteration": lambda method: method.iterative,
 }
-"""Options that do not act on every estimator."""
+"""Options, of a section too, that do not act on every estimator."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +89,7 @@ def read_options(options: Mapping[str, object]) -> IdentifyOptions:
         parse_options(options_for(options, name))
     for key, acts in _ACTS.items():
         if not any(acts(ESTIMATORS[name]) for name in names):
-            parse_options({"estimator": names[0], key: options.get(key)})
+            parse_options({"estimator": names[0], **_only(options, key)})
     return parse_options(options_for(options, BEGINNING))
 
 
@@ -93,11 +97,23 @@ def options_for(options: Mapping[str, object], name: str) -> dict[str, object]:
     """Give a comparison's options for one estimator: without those that have no effect on it."""
     method = ESTIMATORS[name]
     idle = {COMPARE, *(key for key, acts in _ACTS.items() if not acts(method))}
-    own = {key: value for key, value in options.items() if key not in idle}
-    prior = own.get("prior")
-    if isinstance(prior, Mapping) and not method.feasible:
-        own["prior"] = {key: value for key, value in prior.items() if key != "entropy"}
+    own = {
+        key: {inner: part for inner, part in value.items() if f"{key}.{inner}" not in idle}
+        if isinstance(value, Mapping)
+        else value
+        for key, value in options.items()
+        if key not in idle
+    }
     return own | {"estimator": name}
+
+
+def _only(options: Mapping[str, object], key: str) -> dict[str, object]:
+    """Give one option alone, or one of a section; nothing where it is not given."""
+    section, _, name = key.partition(".")
+    value = options.get(section)
+    if not name:
+        return {section: value}
+    return {section: {name: value[name]}} if isinstance(value, Mapping) and name in value else {}
 
 
 def fit_by(name: str, options: Mapping[str, object], begun: Identification) -> Compared:

@@ -57,7 +57,7 @@ def converge(
     SolverError
         If a simulation diverges, or a programme has no accurate optimum.
     """
-    step = method.equations(None, data)
+    first = step = method.equations(None, data)
     found = solve(step)
     if not method.iterative:
         return step, found, ONE_STEP
@@ -67,7 +67,7 @@ def converge(
         tell(number / options.most)
         step = method.equations(at, data)
         found = solve(step)
-        change = _relative(step, found.base - base, found.base)
+        change = _relative(first, found.base - base, found.base)
         if steps and change > steps[-1].change:
             share *= 0.5
         steps.append(Iterate(change, found.objective, share))
@@ -81,7 +81,7 @@ def converge(
     return step, found, Convergence(converged=False, reason=reason, steps=tuple(steps))
 
 
-def _relative(step: Step, change: BaseParameters, of: BaseParameters) -> float:
-    """Give the RMS of the torque that a change of the parameters makes, over that of all of them."""
-    own, whole = (float(np.linalg.norm(step.system.triangle @ values)) for values in (change, of))
+def _relative(measured: Step, change: BaseParameters, of: BaseParameters) -> float:
+    """Give the RMS of the torque that a change of the parameters makes along the log, over that of all."""
+    own, whole = (float(np.linalg.norm(measured.system.triangle @ values)) for values in (change, of))
     return own / max(whole, 1e-300)

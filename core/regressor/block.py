@@ -10,8 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays import JointVector, Rows, SampleMask, Samples
-from .columns import ColumnPlan
-from .factor import INSTRUMENT, REGRESSOR, TARGET, Factor, Groups
+from .factor import Factor, Groups
 from .memory import LaggedProducts
 
 
@@ -57,15 +56,6 @@ class Tail:
     def last(self) -> "Tail":
         """Keep as many as lags reach."""
         return Tail(self.rows[-LaggedProducts.LAGS :], self.turning[-LaggedProducts.LAGS :])
-
-
-def groups_of(plan: ColumnPlan, *, instruments: bool) -> tuple[Groups, ...]:
-    """Give, per joint, what the columns of its rows are: [w y], or [z w y] with instruments."""
-    widths = [len(columns) for columns in plan.columns_of]
-    return tuple(
-        (*(((INSTRUMENT, width),) if instruments else ()), (REGRESSOR, width), (TARGET, 1))
-        for width in widths
-    )
 
 
 class OpenBlock:

@@ -5,38 +5,26 @@ products that tell how far the residual's memory inflates a variance. Blocks are
 choose from.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
-from itertools import repeat
-from typing import Protocol, TypeVar, runtime_checkable
+from typing import TypeVar
 
 import numpy as np
 
 from ..arrays import BlockKey, Indices, JointSeries, JointVector
 from ..errors import OptionError
 from ..signals.parallel import Tile
-from .block import Block, OpenBlock, Tail, groups_of
+from .block import Block, OpenBlock, Tail
 from .columns import ColumnPlan
-from .factor import INSTRUMENT, Factor, FilteredRows, Weigh
+from .factor import INSTRUMENT, Factor, FilteredRows, Groups, Weigh
 from .memory import LaggedProducts, TurningProducts
+from .rows import MeasuredRows, RowSource, Tiled
 
 _POSITIONS_PER_BLOCK = 32
 _UNMARKED = np.zeros(0, dtype=bool)
 Products = TypeVar("Products")
 Progress = Callable[[float], None]
-
-
-@runtime_checkable
-class Tiled(Protocol):
-    """Give motion tile by tile, as it was measured or otherwise known."""
-
-    @property
-    def kept(self) -> int:
-        """Count the decimated samples."""
-
-    def tiles(self) -> Iterator[Tile]:
-        """Go through the motion once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +36,8 @@ class Observation:
     blocks: tuple[Block, ...]
     columns_of: tuple[Indices, ...]
     """Per joint, the positions in `plan.columns` that its factors run over."""
+    groups: tuple[Groups, ...]
+    """Per joint, what the columns of its factors are."""
     memory: tuple[LaggedProducts, ...]
     """Per joint, the lagged products of its rows."""
     turning_memory: tuple[TurningProducts, ...]
@@ -56,8 +46,6 @@ class Observation:
     """A sample of the positions along the motions, rad or m."""
     kept: int
     """Number of decimated samples; a joint's factors have fewer rows where instants were unusable for it."""
-    instruments: bool = False
-    """Whether the rows are [z w y]: with instruments before the columns."""
 
     def joint_factors(self, chosen: tuple[int, ...] | None = None) -> tuple[Factor, ...]:
         """Merge the factors of the chosen blocks (all by default), one per joint."""
@@ -82,7 +70,7 @@ class Observation:
     def _merged(self, blocks: list[tuple[Factor, ...]]) -> tuple[Factor, ...]:
         return tuple(
             Factor.empty(sum(dict(groups).values()), groups).merged(*(block[joint] for block in blocks))
-            for joint, groups in enumerate(groups_of(self.plan, instruments=self.instruments))
+            for joint, groups in enumerate(self.groups)
         )
 
     def parts(self, held_out: frozenset[BlockKey]) -> tuple[tuple[int, ...], tuple[int, ...]]:
@@ -130,6 +118,7 @@ class Observation:
             plan=plan,
             blocks=tuple(fewer(block) for block in self.blocks),
             columns_of=plan.columns_of,
+            groups=MeasuredRows(plan).groups,
             memory=tuple(products.over(own) for products, own in zip(self.memory, kept, strict=True)),
             turning_memory=tuple(
                 products.over(own) for products, own in zip(self.turning_memory, kept, strict=True)
@@ -147,11 +136,11 @@ def _merged_by_joint(
 def observe(
     plan: ColumnPlan,
     motions: tuple[Tiled, ...],
-    *,
     held_out: frozenset[BlockKey] = frozenset(),
+    *,
     progress: Progress | None = None,
     weigh: Weigh | None = None,
-    instruments: tuple[Tiled, ...] = (),
+    rows: RowSource | None = None,
 ) -> Observation:
     """Accumulate the equations of all motions.
 
@@ -165,67 +154,40 @@ def observe(
         Called with the fraction done.
     weigh
         For robust fits: gives the weights of a tile's rows.
-    instruments
-        The same motions otherwise known, tile by tile: their columns stand before the motions' own. None by
-        default.
+    rows
+        What the equations are; the columns of the motions by default.
     """
-    beside = bool(instruments)
-    gathered = [_Gathering(plan, weigh, held_out, number, beside=beside) for number in range(len(motions))]
-    total = _take_all(motions, instruments, gathered, progress)
+    source: RowSource = MeasuredRows(plan) if rows is None else rows
+    gathered = [_Gathering(source.groups, weigh, held_out, number) for number in range(len(motions))]
+    total = _take_all(motions, source, gathered, progress)
     blocks = tuple(block for gathering in gathered for block in gathering.blocks())
     memory = _merged_by_joint(LaggedProducts.merged, [gathering.memory for gathering in gathered])
     turning = _merged_by_joint(TurningProducts.merged, [gathering.turning for gathering in gathered])
     positions = np.vstack([position for gathering in gathered for position in gathering.positions])
-    return Observation(plan, blocks, plan.columns_of, memory, turning, positions, total, beside)
+    return Observation(plan, blocks, source.columns_of, source.groups, memory, turning, positions, total)
 
 
 def _take_all(
-    motions: tuple[Tiled, ...],
-    instruments: tuple[Tiled, ...],
-    gathered: list["_Gathering"],
-    progress: Progress | None,
+    motions: tuple[Tiled, ...], source: RowSource, gathered: list["_Gathering"], progress: Progress | None
 ) -> int:
     """Let every motion's tiles be gathered, and count the instants."""
     total, done = sum(motion.kept for motion in motions), 0
     for number, (motion, gathering) in enumerate(zip(motions, gathered, strict=True)):
-        others = instruments[number].tiles() if instruments else repeat(None)
-        for tile, other in zip(motion.tiles(), others, strict=False):
-            gathering.take(tile, other)
+        for tile, rows in source.rows(number, motion):
+            gathering.take(tile, rows)
             done += len(tile.time)
             if progress is not None:
                 progress(done / total)
     return total
 
 
-def equations(plan: ColumnPlan, tile: Tile) -> Iterator[FilteredRows]:
-    """Give, joint by joint, the filtered rows [W y] of a tile with the mask of usable ones."""
-    if plan.is_instantaneous:
-        filtered = tile.filtered_in_parts(plan.series)
-    else:
-        filtered = tile.filtered(plan.series(tile.state))
-    torque = tile.filtered(np.ascontiguousarray(tile.torque.T))
-    for joint, rows in enumerate(plan.rows_of):
-        yield np.vstack([filtered[rows], torque[joint]]).T, tile.usable[:, joint]
-
-
-def _equations_of(plan: ColumnPlan, tile: Tile, other: Tile | None) -> Iterator[FilteredRows]:
-    """Give the rows [w y] of a tile, or [z w y] with the columns of another one as instruments."""
-    if other is None:
-        yield from equations(plan, tile)
-        return
-    pairs = zip(equations(plan, tile), equations(plan, other), strict=True)
-    for (rows, usable), (instruments, _) in pairs:
-        yield np.hstack([instruments[:, :-1], rows]), usable
-
-
 class _Gathering:
     """Collect the tiles of one motion, block by block."""
 
     def __init__(
-        self, plan: ColumnPlan, weigh: Weigh | None, held_out: frozenset[BlockKey], log: int, *, beside: bool
+        self, groups: tuple[Groups, ...], weigh: Weigh | None, held_out: frozenset[BlockKey], log: int
     ) -> None:
-        self.plan = plan
-        self.groups = groups_of(plan, instruments=beside)
+        self.groups = groups
         self.weigh = weigh
         self.held_out = [number for source, number in held_out if source == log]
         self.log = log
@@ -240,7 +202,7 @@ class _Gathering:
         self._blocks: dict[int, OpenBlock] = {}
         self.positions: list[JointSeries] = []
 
-    def take(self, tile: Tile, other: Tile | None = None) -> None:
+    def take(self, tile: Tile, pairs: list[FilteredRows]) -> None:
         if not tile.follows:
             self._tails = [tail.none for tail in self._tails]
         parts = list(tile.parts())
@@ -248,7 +210,6 @@ class _Gathering:
             self._sample(tile, kept)
             block = self._blocks.setdefault(number, OpenBlock(self.groups, float(tile.time[kept.start])))
             block.end = float(tile.time[kept.stop - 1])
-        pairs = list(_equations_of(self.plan, tile, other))
         weights = None if self.weigh is None else self.weigh(pairs)
         fitted = ~np.isin(tile.block, self.held_out)
         for joint, (rows, usable) in enumerate(pairs):

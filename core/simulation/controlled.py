@@ -4,18 +4,15 @@ Whatever was measured drives nothing here, so that the motion holds none of its 
 the controller instead: hence one is simulated only after it was found to recompute the log's command.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..arrays import JointSeries
-from ..signals.condition import Motion
 from ..signals.resample import linear
 from .control_law import ControlLaw, Inputs
 from .controller import LONGEST_DELAY, ControllerModel
-from .mechanism import Mechanism
-from .simulated import Piece, SimulatedMotion
+from .simulated import Piece
 
 _REFERENCES = ("position_ref", "velocity_ref", "torque_ref")
 _BESIDE = 2 * LONGEST_DELAY
@@ -57,14 +54,3 @@ def _reference(piece: Piece, name: str, begin: int, end: int) -> JointSeries | N
     rows = segment.log.source.rows(segment.start + first, segment.start + last)
     values: JointSeries | None = getattr(rows, name)
     return None if values is None else linear(grid, rows.time, values)
-
-
-def controlled(
-    mechanism: Mechanism,
-    motions: Sequence[Motion],
-    controllers: Sequence[ControllerModel],
-    substeps: int | None = None,
-) -> tuple[SimulatedMotion, ...]:
-    """Simulate every motion under its own controller."""
-    pairs = zip(motions, controllers, strict=True)
-    return tuple(SimulatedMotion(motion, mechanism, Controlled(one), substeps) for motion, one in pairs)

@@ -27,6 +27,11 @@ _CUTS = 12
 """After so many cuts within a step, what changes its direction is put to rest instead."""
 
 
+def steps_between(step: float, asked: int | None = None) -> int:
+    """Count the steps of a simulation between two samples (s): those asked for, or none above the longest."""
+    return asked or max(1, int(np.ceil(step / LONGEST_STEP - 1e-9)))
+
+
 @dataclass(frozen=True, eq=False)
 class Stride:
     """Say where in a drive's step states are: number, shares passed and to go, and who (None: all)."""

@@ -17,7 +17,7 @@ from ..arrays import FrictionShares, JointSeries, JointVector, SquareMatrix
 from ..dynamics.terms.joint_coupling import MissingCoupling
 from ..dynamics.terms.payload_change import Payload
 from ..errors import OptionError, SolverError
-from ..signals.state import MotionState
+from ..signals.state import MotionState, concatenate_states
 from . import loop_kernel as rows
 from .control_law import ControlLaw, Inputs
 from .integrate import FASTEST, failure
@@ -44,6 +44,17 @@ class Played:
 
     state: MotionState
     torque: JointSeries
+
+    def at(self, samples: slice) -> "Played":
+        """Give some of the rows."""
+        return Played(self.state.at(samples), self.torque[samples])
+
+    def then(self, later: "Played") -> "Played":
+        """Give these rows and those that follow."""
+        if not len(self.torque):
+            return later
+        state = concatenate_states([self.state, later.state])
+        return Played(state, np.concatenate([self.torque, later.torque]))
 
 
 @dataclass(frozen=True, eq=False)

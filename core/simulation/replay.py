@@ -4,16 +4,14 @@ What the controller adds is what the model lacks, so no controller of the real r
 motion that comes out holds little of the measured motion's noise, which the controller damps.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..arrays import JointSeries
-from ..signals.condition import Motion
 from .control_law import ControlLaw, Gains, Inputs
 from .mechanism import Mechanism
-from .simulated import Piece, SimulatedMotion
+from .simulated import Piece
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,11 +41,3 @@ def default_gains(mechanism: Mechanism, position: JointSeries, bandwidth_hz: flo
     inertia = np.median(np.diagonal(mechanism.mass_matrices(position), axis1=1, axis2=2), axis=0)
     rate = 2.0 * np.pi * bandwidth_hz
     return Gains(inertia * rate**2, 2.0 * inertia * rate)
-
-
-def replay(
-    mechanism: Mechanism, motions: Sequence[Motion], gains: Gains, substeps: int | None = None
-) -> tuple[SimulatedMotion, ...]:
-    """Replay motions with the same gains for all."""
-    source = Replay(gains, mechanism)
-    return tuple(SimulatedMotion(motion, mechanism, source, substeps) for motion in motions)

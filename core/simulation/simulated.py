@@ -4,8 +4,9 @@ What drives it along the log is a source of its own: a replay of the measured to
 the real robot had. Every gap-free part begins as it was measured and is simulated in one go.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from itertools import tee
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -14,10 +15,10 @@ from ..arrays import JointSeries, Samples
 from ..signals.condition import Motion
 from ..signals.parallel import Tile
 from ..signals.segment import Segment
-from ..signals.state import MotionState, concatenate_states
+from ..signals.state import MotionState
 from .control_law import ControlLaw, Inputs
-from .integrate import LONGEST_STEP
-from .loop import Loop, LoopState
+from .integrate import steps_between
+from .loop import Loop, LoopState, Played
 from .mechanism import Mechanism
 
 
@@ -70,21 +71,25 @@ class SimulatedMotion:
         SolverError
             If the simulated motion diverges.
         """
+        measured, followed = tee(self.motion.tiles())
+        for tile, played in zip(measured, self.along(followed), strict=True):
+            yield replace(tile, state=replace(played.state, temperature=tile.state.temperature))
+
+    def along(self, tiles: Iterable[Tile]) -> Iterator[Played]:
+        """Simulate what the tiles of the motion see, one after another."""
         segments = iter(self.motion.segments)
         lane: _Lane | None = None
-        for tile in self.motion.tiles():
+        for tile in tiles:
             lane = (
                 self._begun(next(segments), tile) if lane is None or not tile.follows else lane.onwards(tile)
             )
-            yield replace(tile, state=replace(lane.seen, temperature=tile.state.temperature))
+            yield lane.seen
 
     def _begun(self, segment: Segment, tile: Tile) -> "_Lane":
         step = 1.0 / segment.rate_hz
-        substeps = self.substeps or max(1, int(np.ceil(step / LONGEST_STEP - 1e-9)))
-        loop = Loop(self.mechanism, self.source.law(step), step, substeps)
-        return _Lane(segment, self.source, loop, loop.start(tile.state), tile.state.at(slice(0))).onwards(
-            tile
-        )
+        loop = Loop(self.mechanism, self.source.law(step), step, steps_between(step, self.substeps))
+        none = Played(tile.state.at(slice(0)), tile.torque[:0])
+        return _Lane(segment, self.source, loop, loop.start(tile.state), none).onwards(tile)
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,19 +100,17 @@ class _Lane:
     source: Source
     loop: Loop
     state: LoopState
-    seen: MotionState
+    seen: Played
 
     def onwards(self, tile: Tile) -> "_Lane":
         """Simulate up to the tile's last sample; the first ones it shares with the tile before."""
-        begin, step, time = _clock(tile.state)[0], self.loop.step, _clock(self.seen)
+        begin, step, time = _clock(tile.state)[0], self.loop.step, _clock(self.seen.state)
         known = int(np.count_nonzero(time > begin - 0.5 * step))
         first = known + round(float(begin - self.segment.begin_time) / step)
         fresh = slice(known, None)
         piece = Piece(self.segment, step, first, tile.state.at(fresh), tile.torque[fresh])
         played, state = self.loop.run(self.state, self.source.inputs(piece))
-        before = self.seen.at(slice(len(time) - known, None))
-        seen = concatenate_states([before, played.state]) if known else played.state
-        return replace(self, state=state, seen=seen)
+        return replace(self, state=state, seen=self.seen.at(slice(len(time) - known, None)).then(played))
 
 
 def _clock(state: MotionState) -> Samples:

@@ -98,6 +98,8 @@ def test_one_estimator_beside_the_compared_ones_is_refused():
         {"compare": ["sdp", "wls"], "iteration": {"most": 3}},
         {"compare": ["ols", "wls"], "bounds": {"guess": 1}},
         {"compare": ["sdp", "iv"], "simulation": {"substeps": 0}},
+        {"compare": ["sdp", "iv"], "simulation": {"window_seconds": 0.3}},
+        {"compare": ["sdp", "oe"], "simulation": {"bandwidth_hz": 3.0}},
     ],
     ids=repr,
 )
@@ -111,6 +113,7 @@ def test_an_option_that_is_not_valid_or_acts_on_none_of_the_estimators_is_refuse
     [
         {"compare": ["ols", "iv"], "robust": False, "bounds": {"plausible": False}},
         {"compare": ["ols", "wls"], "simulation": {}, "iteration": None},
+        {"compare": ["iv", "oe"], "simulation": {"window_seconds": 0.3, "bandwidth_hz": 3.0}},
         {"prior": {"entropy": 0.1}, "solver": "cvxpy", "robust": True, "simulation": {"bandwidth_hz": 3.0}},
     ],
     ids=repr,

@@ -12,6 +12,9 @@ from ...regressor.factor import Factor, Weigh
 from ...regressor.memory import LaggedProducts
 from ..system import Criterion, System
 
+TORQUE, POSITION, WINDOWS = "torque", "position", "windows"
+"""What of a simulation is compared with the log; ``windows``: positions of free motion over short windows."""
+
 
 @runtime_checkable
 class FitData(Protocol):
@@ -61,6 +64,9 @@ class FitData(Protocol):
     def instrumented(self, at: Parameters) -> "FitData":
         """Put those columns before the measured ones, as instruments."""
 
+    def differentiated(self, at: Parameters, output: str) -> "FitData":
+        """Take the derivatives of a simulated output, and what the log shows beyond it."""
+
 
 @dataclass(frozen=True, eq=False)
 class Step:
@@ -94,6 +100,10 @@ class Estimator(Protocol):
     @property
     def iterative(self) -> bool:
         """Tell whether the equations depend on the robot that they are written at."""
+
+    @property
+    def free(self) -> bool:
+        """Tell whether the measured torque alone drives what it simulates: no controller pulls."""
 
     @property
     def row_weights(self) -> bool:

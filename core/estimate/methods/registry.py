@@ -7,6 +7,7 @@ from .irls import IterativelyReweighted
 from .iv import InstrumentalVariables
 from .method import Estimator
 from .ols import OrdinaryLeastSquares
+from .output_error import CLOSED_LOOP_INPUT_ERROR, CLOSED_LOOP_OUTPUT_ERROR, OPEN_LOOP_OUTPUT_ERROR
 from .sdp import SemidefiniteProgramme
 from .wls import WeightedLeastSquares
 
@@ -17,6 +18,9 @@ _LISTED: tuple[Estimator, ...] = (
     IterativelyReweighted(),
     InstrumentalVariables(),
     DirectInverse(),
+    CLOSED_LOOP_INPUT_ERROR,
+    CLOSED_LOOP_OUTPUT_ERROR,
+    OPEN_LOOP_OUTPUT_ERROR,
 )
 ESTIMATORS: Mapping[str, Estimator] = {estimator.name: estimator for estimator in _LISTED}
 """The estimators by name, the default first."""

@@ -18,6 +18,7 @@ class Simulating(ABC):
     feasible: bool = True
     iterative: bool = True
     row_weights: bool = False
+    free: bool = False
 
     def equations(self, at: Parameters | None, data: FitData) -> Step:
         """Write the equations at a robot; at None those of weighted least squares."""

@@ -18,6 +18,7 @@ from veritorque.core.reduction.base import base_model
 from veritorque.core.regressor.factor import INSTRUMENT, REGRESSOR, TARGET, Factor
 from veritorque.core.regressor.memory import LaggedProducts
 from veritorque.core.regressor.observe import observe
+from veritorque.core.regressor.rows import InstrumentedRows
 from veritorque.core.signals.condition import condition
 from veritorque.core.signals.recipe import FilterOptions
 
@@ -40,7 +41,8 @@ def plain() -> ObservedProblem:
 
 def test_columns_that_are_their_own_instruments_give_least_squares_and_its_deviations(plain):
     problem = plain.problem
-    beside = observe(problem.plan, problem.motions, held_out=problem.held_out, instruments=problem.motions)
+    rows = InstrumentedRows(problem.plan, problem.motions)
+    beside = observe(problem.plan, problem.motions, held_out=problem.held_out, rows=rows)
     own = replace(plain, observation=beside, criterion=INSTRUMENTAL)
     systems = [weighted(data.factors, data.columns_of, data.size, data.criterion) for data in (plain, own)]
     least, instrumental = (system.solved() for system in systems)

@@ -23,6 +23,17 @@ def test_simulated_columns_predict_better_than_measured_ones_where_joints_stick(
     assert simulated < min(0.7 * least, 0.3)
 
 
+@pytest.mark.parametrize(("estimator", "encoder_deg"), [("clie", 1e-2), ("cloe", 1e-2), ("oe", 1e-3)])
+def test_simulated_output_predicts_better_than_measured_columns_where_joints_stick(estimator, encoder_deg):
+    least, output = (torque_error("planar-2", encoder_deg, name, draws=3) for name in ("sdp", estimator))
+    assert output < least
+
+
+def test_simulated_motion_holds_less_of_the_noise_of_a_coarse_encoder_than_any_columns():
+    least, columns, output = (torque_error("planar-2", 1e-1, name) for name in ("sdp", "didim", "cloe"))
+    assert output < min(0.7 * least, columns)
+
+
 def test_instruments_remove_most_of_the_bias_of_noisy_columns_in_a_wide_band():
     wide = {"filter": {"cutoff_hz": 40.0}}
     least, instrumental = (torque_error("planar-2", 1e-2, name, **wide) for name in ("sdp", "iv"))

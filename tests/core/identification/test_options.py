@@ -199,7 +199,7 @@ def test_a_diagnosis_that_would_hold_nothing_out_is_refused_where_an_identificat
         parse_diagnose_options({"validation": validation})
 
 
-@pytest.mark.parametrize("estimator", ["iv", "didim"])
+@pytest.mark.parametrize("estimator", ["iv", "didim", "clie", "cloe"])
 def test_a_diagnosis_by_an_estimator_that_simulates_is_refused_where_an_identification_is_not(estimator):
     asked = {
         "estimator": estimator,
@@ -211,6 +211,17 @@ def test_a_diagnosis_by_an_estimator_that_simulates_is_refused_where_an_identifi
     assert (options.simulation.substeps, options.iteration.most) == (3, 4)
     with pytest.raises(OptionError, match="cannot be fitted by"):
         parse_diagnose_options({"estimator": estimator})
+
+
+def test_what_would_not_act_on_free_motion_is_refused_and_windows_where_no_motion_is_free():
+    assert parse_options({"estimator": "oe", "simulation": {"window_seconds": 0.3}})
+    for estimator, simulation, named in (
+        ("oe", {"from": "controller"}, "simulation.from"),
+        ("oe", {"bandwidth_hz": 3.0}, "simulation.bandwidth_hz"),
+        ("clie", {"window_seconds": 0.3}, "simulation.window_seconds"),
+    ):
+        with pytest.raises(OptionError, match=named):
+            parse_options({"estimator": estimator, "simulation": simulation})
 
 
 def test_a_diagnosis_may_hold_whole_logs_out_instead_of_blocks():

@@ -22,8 +22,9 @@ from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.reduction.base import base_model
 from veritorque.core.regressor.columns import ColumnPlan
 from veritorque.core.regressor.memory import LaggedProducts
-from veritorque.core.regressor.observe import Observation, equations, observe, torque_scales
+from veritorque.core.regressor.observe import Observation, observe, torque_scales
 from veritorque.core.regressor.residuals import residuals
+from veritorque.core.regressor.rows import equations
 from veritorque.core.signals import condition as conditioning
 from veritorque.core.signals.condition import Motion, condition
 from veritorque.core.signals.parallel import Tile

@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -14,8 +15,9 @@ from veritorque.core.log.model import whole_rows
 from veritorque.core.log.reader import log_from_arrays, read_log
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.signals.condition import condition
-from veritorque.core.simulation.controlled import controlled
+from veritorque.core.simulation.controlled import Controlled
 from veritorque.core.simulation.own_controller import controller_of
+from veritorque.core.simulation.simulated import SimulatedMotion
 from veritorque.core.study import IdentifyRequest, identify
 
 SETTLED = 1500
@@ -25,7 +27,7 @@ SETTLED = 1500
 def moved(machine, log, controller):
     """Simulate a log under a controller, and give the samples of all tiles, each once."""
     motion = condition(log, machine.robot)
-    (played,) = controlled(machine, (motion,), (controller,))
+    played = SimulatedMotion(motion, machine, Controlled(controller))
     parts, begin = [], -np.inf
     for tile in played.tiles():
         fresh = tile.state.time > begin + 1e-9
@@ -144,8 +146,11 @@ PUBLISHED = {"M1": (94.8, 95.5), "FV1": (200.0, 211.0), "FC1": (19.8, 20.6), "OF
 """Source: Janot, Gautier & Brunot 2019, least squares and closed-loop estimators, on rows of equal weight."""
 
 
-@pytest.mark.parametrize("source", ["replay", "controller"])
-@pytest.mark.parametrize("estimator", ["iv", "didim"])
+# By replay errors of the model act on the output: clie's and cloe's values are off by up to 1 % and 5 %.
+@pytest.mark.parametrize(
+    ("estimator", "source"),
+    [*product(("iv", "didim"), ("replay", "controller")), ("clie", "controller"), ("cloe", "controller")],
+)
 def test_a_measured_servo_axis_has_its_published_parameters(servo, estimator, source):
     robot, log = servo
     options = {

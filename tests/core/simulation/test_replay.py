@@ -13,18 +13,20 @@ from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.signals.condition import condition
 from veritorque.core.signals.recipe import FilterOptions
 from veritorque.core.simulation.mechanism import mechanism_of
-from veritorque.core.simulation.replay import default_gains, replay
+from veritorque.core.simulation.replay import Replay, default_gains
+from veritorque.core.simulation.simulated import SimulatedMotion
 
 
 def played_again(mechanism, motion, bandwidth_hz=5.0):
     """Replay a motion with gains for the inertia along it."""
     positions = np.vstack([tile.state.position[::50] for tile in motion.tiles()])
-    return replay(mechanism, (motion,), default_gains(mechanism, positions, bandwidth_hz))
+    gains = default_gains(mechanism, positions, bandwidth_hz)
+    return SimulatedMotion(motion, mechanism, Replay(gains, mechanism))
 
 
 def deviations(mechanism, motion, bandwidth_hz=5.0):
     """Give the RMS of simulated less measured positions, joint by joint, where samples are usable."""
-    (played,) = played_again(mechanism, motion, bandwidth_hz)
+    played = played_again(mechanism, motion, bandwidth_hz)
     apart = [
         (other.state.position - tile.state.position)[tile.first : -tile.parallel.reach]
         for other, tile in zip(played.tiles(), motion.tiles(), strict=True)
@@ -44,7 +46,7 @@ def test_a_firmer_controller_keeps_a_wrong_robot_nearer(arm, motion):
 
 
 def test_tiles_continue_each_other_and_hold_what_is_not_simulated(arm, motion):
-    (played,) = played_again(mechanism(*arm, FC=1.0), motion)
+    played = played_again(mechanism(*arm, FC=1.0), motion)
     assert played.kept == motion.kept
     before = None
     for other, tile in zip(played.tiles(), motion.tiles(), strict=True):
@@ -74,7 +76,7 @@ def test_a_part_behind_a_gap_begins_as_it_was_measured(arm, motion):
     kept = np.r_[0 : len(rows.time) // 2, len(rows.time) // 2 + 300 : len(rows.time)]
     log = log_from_arrays("gap", rows.time[kept], rows.position[kept], rows.torque[kept])
     parted = condition(log, motion_robot(arm), FilterOptions())
-    (played,) = played_again(mechanism(*arm, FC=1.0), parted)
+    played = played_again(mechanism(*arm, FC=1.0), parted)
     pairs = zip(played.tiles(), parted.tiles(), strict=True)
     begun = [(other, tile) for other, tile in pairs if not tile.follows]
     assert len(begun) == 2
@@ -91,7 +93,7 @@ def test_a_model_with_a_term_that_is_not_simulated_is_refused(arm, motion):
     plain = mechanism(*arm, FC=1.0)
     model = replace(plain.model, terms=(*plain.model.terms, Presliding(1, 0.01)))
     longer = np.append(plain.parameters, np.zeros(len(model.parameters) - len(plain.parameters)))
-    (played,) = played_again(mechanism_of(model, longer), motion)
+    played = played_again(mechanism_of(model, longer), motion)
     with pytest.raises(OptionError, match="terms"):
         next(played.tiles())
 
