@@ -61,6 +61,9 @@ class FitData(Protocol):
     def instrumented(self, at: Parameters) -> "FitData":
         """Put those columns before the measured ones, as instruments."""
 
+    def compensated(self) -> "FitData":
+        """Take what noise of positions adds to the products of columns out of them."""
+
 
 @dataclass(frozen=True, eq=False)
 class Step:

@@ -8,6 +8,7 @@ from .iv import InstrumentalVariables
 from .method import Estimator
 from .ols import OrdinaryLeastSquares
 from .sdp import SemidefiniteProgramme
+from .tls import CompensatedLeastSquares
 from .wls import WeightedLeastSquares
 
 _LISTED: tuple[Estimator, ...] = (
@@ -17,6 +18,7 @@ _LISTED: tuple[Estimator, ...] = (
     IterativelyReweighted(),
     InstrumentalVariables(),
     DirectInverse(),
+    CompensatedLeastSquares(),
 )
 ESTIMATORS: Mapping[str, Estimator] = {estimator.name: estimator for estimator in _LISTED}
 """The estimators by name, the default first."""

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.core.estimate.sticking_arm import Scene, scene
+from tests.core.estimate.sticking_arm import QUIET, Scene, scene
 from veritorque.core.identification.doubts import doubts
 from veritorque.core.identification.result import Identification
 from veritorque.core.log.model import whole_rows
@@ -15,7 +15,6 @@ from veritorque.core.regressor.column_noise import acceleration_columns
 from veritorque.core.study import IdentifyRequest, identify_in_full
 
 WIDE = {"filter": {"cutoff_hz": 40.0}}
-QUIET = 0.02
 
 
 def fitted(own: Scene, log: object, **options: object) -> Identification:
