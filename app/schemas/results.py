@@ -63,6 +63,17 @@ class Instruments(Open):
     weakest: Annotated[float, about("least canonical correlation of instruments and columns, 0 to 1")]
 
 
+class Attenuation(Open):
+    """What noise of positions makes of the inertias that least squares finds."""
+
+    inertia_percent: Annotated[
+        list[float | None],
+        about("per joint: what least squares misses of its inertia; negative if it finds too much"),
+    ]
+    position_noise: Annotated[list[float], about("per joint: white noise of its positions, RMS, rad or m")]
+    cutoff_hz: Annotated[float, about("of the parallel filter; the widest of all logs")]
+
+
 class Estimation(Open):
     """By which estimator a robot was fitted, and how it ended."""
 
@@ -77,6 +88,7 @@ class Estimation(Open):
         dict[str, JsonValue] | None, about("how the logs were replayed; null where nothing is simulated")
     ]
     instruments: Instruments | None
+    attenuation: Attenuation | None = None
 
 
 class ModelName(Open):

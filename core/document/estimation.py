@@ -2,6 +2,9 @@
 
 from collections.abc import Iterator
 
+import numpy as np
+
+from ..arrays import JointVector
 from ..estimate.methods.registry import ESTIMATORS
 from ..identification.result import Identification
 from ..precision.endogeneity import SIGNIFICANCE, Endogeneity
@@ -21,6 +24,11 @@ def estimation_fields(found: Identification) -> dict[str, object]:
         "steps": [vars(step) for step in ended.steps],
         "simulation": _simulation(found) if method.iterative else None,
         "instruments": None if found.endogeneity is None else vars(found.endogeneity),
+        "attenuation": {
+            "inertia_percent": 100.0 * found.attenuation.missed,
+            "position_noise": found.attenuation.noise,
+            "cutoff_hz": found.attenuation.cutoff_hz,
+        },
     }
 
 
@@ -56,6 +64,7 @@ def _statements(found: Identification) -> Iterator[str]:
         yield f"It simulated the logs {steps} time{'s' * (steps != 1)}: {ended.reason}."
     if found.endogeneity is not None:
         yield _difference(found.endogeneity)
+    yield from _attenuated(100.0 * found.attenuation.missed)
 
 
 def _recognised(number: int, check: ControllerCheck) -> str:
@@ -66,6 +75,16 @@ def _recognised(number: int, check: ControllerCheck) -> str:
         f"Log {number} was driven by {kind} (velocity: {rule}, delay {model.delay_samples} samples), which "
         f"recomputes its {check.channel.replace('_', ' ')} within {worst:.2g} %."
     )
+
+
+def _attenuated(percent: JointVector) -> Iterator[str]:
+    sizes = np.nan_to_num(np.abs(percent))
+    if sizes.any():
+        joint = int(np.argmax(sizes))
+        yield (
+            f"Noise of positions attenuates the inertias that least squares finds by {sizes[joint]:.2g} % at "
+            f"most (joint {joint + 1})."
+        )
 
 
 def _difference(found: Endogeneity) -> str:

@@ -9,14 +9,17 @@ import numpy as np
 from ..arrays import BlockKey, Indices, JointVector, Parameters
 from ..errors import ExcitationError
 from ..reduction.base import BaseModel
+from ..regressor.column_noise import acceleration_columns, noise_products
 from ..regressor.columns import ColumnPlan
 from ..regressor.factor import Factor, Weigh
 from ..regressor.memory import LaggedProducts
 from ..regressor.observe import Observation, observe
 from ..regressor.rows import InstrumentedRows, RowSource
 from ..signals.condition import Motion
+from ..signals.filtered_noise import acceleration_variance
 from ..simulation.controller_check import ControllerCheck
 from ..simulation.own_controller import controller_of
+from .compensation import Compensated
 from .gaussian_prior import GaussianPrior
 from .options import CONTROLLER, SimulationOptions
 from .reversals import reversal_weights
@@ -156,6 +159,21 @@ class ObservedProblem:
         changes = CHANGE * np.linalg.norm(measured.target) / np.where(sizes > 0.0, sizes, sizes.max())
         rows = self._simulator.differentiated(at, output, changes)
         return replace(self, observation=self.problem.observed(rows=rows))
+
+    def compensated(self) -> "ObservedProblem":
+        """Take what noise of positions adds to the products of columns out of them.
+
+        The sign of a noisy speed has no linear model: rows beside reversals are left out, unless most are.
+        """
+        plan, variance = self.problem.plan, acceleration_variance(self.problem.motions)
+        added = noise_products(plan, acceleration_columns(plan, self.observation.positions), variance)
+        products, weights = np.zeros((len(added), self.size, self.size)), np.zeros(len(added))
+        for joint, (own, place, moving, turning) in enumerate(
+            zip(added, self.columns_of, *self._groups, strict=True)
+        ):
+            weights[joint] = float(moving.rows < turning.rows)
+            products[joint][np.ix_(place, place)] = own * (moving.rows + weights[joint] * turning.rows)
+        return replace(self, weights=weights, criterion=Compensated(products))
 
     def position_rms(self, at: Parameters) -> JointVector:
         """Give the RMS of a robot's simulated less the measured positions at usable samples, rad or m."""

@@ -17,7 +17,7 @@ from .gaussian_prior import GaussianPrior
 RANK_TOLERANCE = 1e-8
 ROUNDING = 1e-12
 """A column smaller than this share of the largest is what differences leave of a motion that is not there."""
-_REWEIGHTINGS = 2
+REWEIGHTINGS = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,7 +184,7 @@ def weighted(
 ) -> System:
     """Stack with each joint divided by the RMS of its own residual, in two rounds from the unweighted fit."""
     system = ordinary(factors, columns_of, base, criterion)
-    for _ in range(_REWEIGHTINGS):
+    for _ in range(REWEIGHTINGS):
         noise = joint_noise(factors, columns_of, system.solved())
         system = stacked(factors, columns_of, base, noise, criterion)
     return system

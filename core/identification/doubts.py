@@ -27,13 +27,24 @@ SOURCES = {
 }
 DOUBTFUL = ("implausible_unit", "velocity_mismatch", ONE_DIRECTION)
 """Defects of a log by which values are wrong, or not known, however well the model fits."""
+ATTENUATED = 0.01
+"""Share of an inertia that noise may take from it. On simulated arms least squares errs about four times as
+much as instrumental variables from there on."""
+LEAST_SQUARES = ("sdp", "wls", "irls", "ols")
+"""Estimators that noise of columns biases."""
 CERTAIN = 3.0
 """A value this many standard deviations from zero has a significant sign."""
 
 
 def doubts(found: Identification) -> tuple[str, ...]:
     """List the warnings."""
-    return (*_logs(found), *contradictions(found), *_not_converged(found), *_not_excited(found))
+    return (
+        *_logs(found),
+        *contradictions(found),
+        *_not_converged(found),
+        *_attenuated(found),
+        *_not_excited(found),
+    )
 
 
 def contradictions(found: Identification) -> tuple[str, ...]:
@@ -44,6 +55,20 @@ def contradictions(found: Identification) -> tuple[str, ...]:
 def _not_converged(found: Identification) -> list[str]:
     ended = found.convergence
     return [] if ended.converged else [f"The estimator {found.estimator} did not converge: {ended.reason}"]
+
+
+def _attenuated(found: Identification) -> list[str]:
+    told = found.attenuation
+    sizes = np.nan_to_num(np.abs(told.missed))
+    noisy = np.flatnonzero(sizes > ATTENUATED)
+    if found.estimator not in LEAST_SQUARES or not len(noisy):
+        return []
+    joints = ", ".join(f"joint {joint + 1} by about {100.0 * sizes[joint]:.2g} %" for joint in noisy)
+    sentence = (
+        f"Positions are too noisy for a band of {told.cutoff_hz:.3g} Hz: least squares is biased in the "
+        f"inertia of {joints}. Use estimator tls or iv, or a lower filter.cutoff_hz"
+    )
+    return [sentence]
 
 
 def has_impossible_joint(found: Identification) -> bool:

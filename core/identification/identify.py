@@ -14,6 +14,7 @@ from ..estimate.system import System
 from ..log.model import JointLog
 from ..numerics.block_bootstrap import block_draws
 from ..numerics.mapping import SERIAL, Mapper
+from ..precision.attenuation import attenuation
 from ..precision.bootstrap import bootstrap
 from ..precision.endogeneity import endogeneity
 from ..precision.essential import essential_parameters
@@ -133,4 +134,5 @@ def judge(
         endogeneity=None
         if own.carried is None
         else endogeneity(own, data.factors, data.memory, data.columns_of),
+        attenuation=attenuation(observation, fitted, problem.motions, answer.base),
     )

@@ -7,6 +7,7 @@ from ..estimate.estimate import Estimate
 from ..estimate.feasibility import Feasibility
 from ..estimate.options import SimulationOptions
 from ..log.model import JointLog
+from ..precision.attenuation import Attenuation
 from ..precision.endogeneity import Endogeneity
 from ..precision.essential import Essential
 from ..precision.inference import Inference
@@ -65,6 +66,8 @@ class Identification:
     """RMS of simulated less measured positions, rad or m; None where nothing was simulated."""
     endogeneity: Endogeneity | None
     """What instruments tell of errors in the measured motion; None where there are none."""
+    attenuation: Attenuation
+    """What noise of positions makes of the inertias of least squares."""
 
     @property
     def feasible(self) -> bool:

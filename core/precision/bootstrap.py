@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ..arrays import BaseParameters, BlockDraws, Indices, Matrix
-from ..errors import SolverError
+from ..errors import ExcitationError, SolverError
 from ..estimate.system import System
 from ..numerics.mapping import SERIAL, Mapper
 from ..regressor.factor import Factor
@@ -40,7 +40,8 @@ def bootstrap(
 
     Notes
     -----
-    Draws whose programme has no accurate optimum are left out; the caller sees fewer rows.
+    Draws that have no accurate optimum, or less excitation than noise, are left out; the caller sees fewer
+    rows.
     """
     products = _products(blocks, columns_of, system)
 
@@ -49,7 +50,7 @@ def bootstrap(
         try:
             product = np.tensordot(weights, products, axes=1)
             return solve(system.criterion.system(_triangle(product), system.rows, system.noise))
-        except SolverError:
+        except (SolverError, ExcitationError):
             return None
 
     answers = mapper.map(fit_draw, drawn)

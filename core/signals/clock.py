@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from ..arrays import Samples, Vector
+from .white_noise import FOURTH, OUTLYING, fourth_differences, normal_spread
 
 Motion = Float[np.ndarray, "rows joints"]
 UNIFORM_TOLERANCE = 1e-3
@@ -18,13 +19,8 @@ NEAR, WINDOW, SHIFT = 1.0, 25, 0.5
 differ from those of the next by less than so many steps: a row that was left out shifts them by one."""
 HALFWAY, DEVIATIONS = 0.5, 3.0
 """The clock is even where positions follow less than half of the scatter, by so many standard deviations."""
-OUTLYING = 4.0
-"""A difference of so many standard deviations tells no more than this: torques jerk, and encoders count."""
 ROWS = 65_536
 """So many rows tell enough."""
-_WEIGHTS = np.array([1.0, -4.0, 6.0, -4.0, 1.0])
-_MEDIAN_SQUARE = 0.4549
-"""Median of the square of a standard normal variable."""
 
 
 def is_uniform(time: Samples, rate_hz: float) -> bool:
@@ -83,11 +79,11 @@ def _followed(position: Motion, scatter: Vector, step: float) -> tuple[float, fl
     """Estimate the share of the stamps' scatter that positions follow, with its standard deviation."""
     together = power = 0.0
     for values in position.T:
-        left = np.convolve(values, _WEIGHTS, mode="valid")
-        wanted = np.convolve(np.gradient(values) / step * scatter, _WEIGHTS, mode="valid")
-        spread = np.sqrt(np.median(left**2) / _MEDIAN_SQUARE)
+        left = fourth_differences(values)
+        wanted = fourth_differences(np.gradient(values) / step * scatter)
+        spread = normal_spread(left)
         if spread > 0.0:
             together += float(np.clip(left / spread, -OUTLYING, OUTLYING) @ wanted) / spread
             power += float(wanted @ wanted) / spread**2
     # Fourth differences of noise resemble each other over five rows.
-    return together / max(power, 1e-300), float(np.sqrt(len(_WEIGHTS) / max(power, 1e-300)))
+    return together / max(power, 1e-300), float(np.sqrt(len(FOURTH) / max(power, 1e-300)))

@@ -8,7 +8,7 @@ Mathematics of Computation 51 (1988), for the weights of the differentiator.
 import numpy as np
 from scipy.ndimage import maximum_filter1d
 
-from ..arrays import InstantSeries, JointSeries
+from ..arrays import InstantSeries, JointSeries, Vector
 
 REACH = 3
 """Samples on either side that a derivative is computed from."""
@@ -31,6 +31,18 @@ def differentiate(values: JointSeries, rate_hz: float) -> InstantSeries:
         values[REACH + steps :][:count] - values[REACH - steps :][:count] for steps in range(1, REACH + 1)
     )
     return np.asarray((45.0 * one - 9.0 * two + three) * (rate_hz / 60.0))
+
+
+def differentiator_gain(frequency_hz: Vector, rate_hz: float) -> Vector:
+    """Give the gain of the difference at some frequencies, per s.
+
+    Examples
+    --------
+    >>> (differentiator_gain(np.array([0.0, 1.0]), 100.0) / (2.0 * np.pi)).round(6)
+    array([0., 1.])
+    """
+    one, two, three = (np.sin(2.0 * np.pi * steps * frequency_hz / rate_hz) for steps in range(1, REACH + 1))
+    return np.asarray((45.0 * one - 9.0 * two + three) * (rate_hz / 30.0))
 
 
 def differentiate_throughout(values: JointSeries, rate_hz: float) -> InstantSeries:

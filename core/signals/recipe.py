@@ -113,6 +113,8 @@ class Recipe:
     rms_speed: JointVector
     still_speed: JointVector
     """Speed per joint, and the speed below which it counts as standing (rad/s or m/s)."""
+    position_noise: JointVector
+    """RMS of the white noise of every joint's positions (rad or m)."""
     reason: str
     """Why these cut-offs, in one sentence."""
 
@@ -168,6 +170,7 @@ def _choose(log: JointLog, options: FilterOptions, prismatic: Mask) -> Recipe:
         motion_band_hz=band,
         rms_speed=speeds,
         still_speed=still_speed,
+        position_noise=survey.noise,
         reason=(
             f"parallel filter at {cutoff:.3g} Hz ({reason}), positions at {position:.3g} Hz,"
             f" one sample in {decimation} kept"

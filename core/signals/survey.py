@@ -10,6 +10,7 @@ from ..log.model import JointLog
 from .derivative import differentiate_throughout
 from .noise_band import noise_floor
 from .resample import uniform_positions
+from .white_noise import white_noise
 
 MOTION_SHARE = 0.995
 """Share of a joint's velocity power that its motion band holds."""
@@ -31,6 +32,8 @@ class Survey:
     """RMS speed of every joint (rad/s or m/s)."""
     noisy: Mask
     """Joints whose velocity is noise only."""
+    noise: JointVector
+    """RMS of the white noise of every joint's positions (rad or m)."""
     positions: list[JointSeries]
     """The windows' positions on a uniform clock."""
     slowest: float
@@ -58,7 +61,8 @@ def survey_of(log: JointLog, median_order: int) -> Survey:
         noise = _noise_power(positions, frequency, log.rate_hz, float(bands[~noisy].max()))
         decides = noise.sum(axis=0) > LEAST_NOISE * power.sum(axis=0)
         bands = _band(frequency, power - decides * noise, MOTION_SHARE)
-    return Survey(bands, speeds, noisy, positions, slowest)
+    white = np.sqrt(np.mean([white_noise(position) ** 2 for position in positions], axis=0))
+    return Survey(bands, speeds, noisy, white, positions, slowest)
 
 
 def _noise_power(

@@ -67,6 +67,9 @@ class FitData(Protocol):
     def differentiated(self, at: Parameters, output: str) -> "FitData":
         """Take the derivatives of a simulated output, and what the log shows beyond it."""
 
+    def compensated(self) -> "FitData":
+        """Take what noise of positions adds to the products of columns out of them."""
+
 
 @dataclass(frozen=True, eq=False)
 class Step:

@@ -9,6 +9,7 @@ from .method import Estimator
 from .ols import OrdinaryLeastSquares
 from .output_error import CLOSED_LOOP_INPUT_ERROR, CLOSED_LOOP_OUTPUT_ERROR, OPEN_LOOP_OUTPUT_ERROR
 from .sdp import SemidefiniteProgramme
+from .tls import CompensatedLeastSquares
 from .wls import WeightedLeastSquares
 
 _LISTED: tuple[Estimator, ...] = (
@@ -21,6 +22,7 @@ _LISTED: tuple[Estimator, ...] = (
     CLOSED_LOOP_INPUT_ERROR,
     CLOSED_LOOP_OUTPUT_ERROR,
     OPEN_LOOP_OUTPUT_ERROR,
+    CompensatedLeastSquares(),
 )
 ESTIMATORS: Mapping[str, Estimator] = {estimator.name: estimator for estimator in _LISTED}
 """The estimators by name, the default first."""

@@ -20,6 +20,8 @@ from veritorque.core.signals.state import MotionState
 from veritorque.core.study import IdentifyRequest, identify_in_full
 
 SEED, STATES, SECONDS, RATE_HZ = 708, 2000, 10.0, 1000.0
+QUIET = 0.02
+"""Share of the usual noise of torques, so that other errors are the largest."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,10 +3,7 @@
 import numpy as np
 import pytest
 
-from tests.core.estimate.sticking_arm import scene
-
-QUIET = 0.02
-"""Share of the plant's usual noise of torques, so that other errors are the largest."""
+from tests.core.estimate.sticking_arm import QUIET, scene
 
 
 def torque_error(robot: str, encoder_deg: float, estimator: str, draws: int = 1, **options: object) -> float:
