@@ -116,7 +116,7 @@ def identify_with_conflicts(
 def _identify(task: _Task, tell: Progress, *, doubted: bool = False) -> tuple[Identification, Conflicts]:
     settled = _settle(task, tell, doubted=doubted)
     asked = settled.task.asked
-    return judge(asked.logs, task.options, settled.fit, tell, asked.mapper), settled.conflicts
+    return judge(asked.logs, settled.fit, tell, asked.mapper), settled.conflicts
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,7 +246,7 @@ def _judge_and_search(
 ) -> tuple[Identification, Diagnosis]:
     """Judge a fit, and find the causes of what it leaves."""
     asked, options, problem = settled.task.asked, settled.task.options, settled.fit.problem
-    before = judge(asked.logs, options, settled.fit, first, asked.mapper)
+    before = judge(asked.logs, settled.fit, first, asked.mapper)
     question = DiagnosisProblem(
         problem.plan, asked.logs, problem.held_out, options.validation.blocks, reference
     )
@@ -272,7 +272,7 @@ def _explain(
         return reserved(without)
     try:
         extended = proof or fit(extend(found, plain), options, last)
-        after = judge(task.asked.logs, options, extended, last, task.asked.mapper)
+        after = judge(task.asked.logs, extended, last, task.asked.mapper)
     except SolverError as error:  # what was found stands, whether or not the correction can be computed
         note = f"the extended model could not be identified: {error.cause}"
         return reserved(replace(without, motion_note=note))

@@ -80,6 +80,9 @@ class Estimation(Open):
     estimator: str
     title: str
     statements: Annotated[list[str], about("the same in sentences")]
+    choice: Annotated[
+        dict[str, str] | None, about("which estimator was chosen and why; null where one was asked for")
+    ]
     constrained: Annotated[bool, about("whether every step is solved under the constraints of consistency")]
     converged: bool
     stop_reason: str

@@ -17,6 +17,7 @@ def estimation_fields(found: Identification) -> dict[str, object]:
     return {
         "estimator": found.estimator,
         "title": method.title,
+        "choice": None if found.choice is None else vars(found.choice),
         "statements": list(_statements(found)),
         "constrained": method.feasible,
         "converged": ended.converged,
@@ -56,7 +57,8 @@ def _controller(check: ControllerCheck) -> dict[str, object]:
 def _statements(found: Identification) -> Iterator[str]:
     """Say the same in sentences, for people."""
     method, ended = ESTIMATORS[found.estimator], found.convergence
-    yield f"Estimator: {method.title} ({found.estimator})."
+    chosen = "" if found.choice is None else f" It was chosen because {found.choice.reason}."
+    yield f"Estimator: {method.title} ({found.estimator}).{chosen}"
     for number, check in enumerate(found.controllers, start=1):
         yield _recognised(number, check)
     if method.iterative:

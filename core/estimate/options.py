@@ -4,7 +4,7 @@ Apart from what estimates, so that a request can be checked where nothing is com
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from ..errors import OptionError
 from .constraints import Bounds
@@ -99,6 +99,17 @@ class EstimateOptions:
     def method(self) -> Estimator:
         """Give the estimator of that name."""
         return ESTIMATORS[self.estimator]
+
+    def by(self, estimator: str) -> "EstimateOptions":
+        """Give the same for another estimator, without what has no effect on it."""
+        method, plain = ESTIMATORS[estimator], EstimateOptions()
+        return replace(
+            self,
+            estimator=estimator,
+            robust=self.robust and method.row_weights,
+            simulation=self.simulation if method.iterative else plain.simulation,
+            iteration=self.iteration if method.iterative else plain.iteration,
+        )
 
     @property
     def simulates_controllers(self) -> bool:

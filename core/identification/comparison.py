@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from ..errors import ExcitationError, LogError, OptionError, SolverError, VeritorqueError
+from ..estimate.methods.auto import AUTO
 from ..estimate.methods.method import Estimator
 from ..estimate.methods.registry import ESTIMATORS
 from ..estimate.problem import Problem
@@ -50,7 +51,7 @@ class Compared:
 
 
 def read_estimators(options: Mapping[str, object]) -> tuple[str, ...]:
-    """Read the names of the estimators that are to be compared; all by default.
+    """Read the names of the estimators that are to be compared; all by default, but for the choice of one.
 
     Raises
     ------
@@ -65,7 +66,7 @@ def read_estimators(options: Mapping[str, object]) -> tuple[str, ...]:
             remedy=f"name the estimators in the option {COMPARE}",
         )
     if names is None:
-        return tuple(ESTIMATORS)
+        return tuple(name for name in ESTIMATORS if name != AUTO)
     listed = [str(name) for name in names] if isinstance(names, list) else []
     if not 2 <= len(set(listed)) == len(listed) or not set(listed) <= set(ESTIMATORS):
         raise OptionError(
@@ -122,7 +123,7 @@ def fit_by(name: str, options: Mapping[str, object], begun: Identification) -> C
     problem = Problem(begun.base, begun.motions, begun.held_out)
     try:
         own = parse_options(options_for(options, name))
-        found = judge(begun.logs, own, fit(problem, own, no_progress, begun.observation), no_progress)
+        found = judge(begun.logs, fit(problem, own, no_progress, begun.observation), no_progress)
     except (ExcitationError, LogError, OptionError, SolverError) as error:
         return Compared(name, None, error, None, "", time.process_time() - start)
     spent = time.process_time() - start

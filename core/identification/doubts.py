@@ -13,6 +13,7 @@ from ..estimate.plausibility import DENSEST
 from ..log.model import Defect
 from ..robot.extent import Extent
 from ..validation.quality import quality
+from .choice import BIASED
 from .result import Identification
 
 HIGH_COST = 1.25
@@ -27,9 +28,6 @@ SOURCES = {
 }
 DOUBTFUL = ("implausible_unit", "velocity_mismatch", ONE_DIRECTION)
 """Defects of a log by which values are wrong, or not known, however well the model fits."""
-ATTENUATED = 0.01
-"""Share of an inertia that noise may take from it. On simulated arms least squares errs about four times as
-much as instrumental variables from there on."""
 LEAST_SQUARES = ("sdp", "wls", "irls", "ols")
 """Estimators that noise of columns biases."""
 CERTAIN = 3.0
@@ -60,13 +58,13 @@ def _not_converged(found: Identification) -> list[str]:
 def _attenuated(found: Identification) -> list[str]:
     told = found.attenuation
     sizes = np.nan_to_num(np.abs(told.missed))
-    noisy = np.flatnonzero(sizes > ATTENUATED)
+    noisy = np.flatnonzero(sizes > BIASED)
     if found.estimator not in LEAST_SQUARES or not len(noisy):
         return []
     joints = ", ".join(f"joint {joint + 1} by about {100.0 * sizes[joint]:.2g} %" for joint in noisy)
     sentence = (
         f"Positions are too noisy for a band of {told.cutoff_hz:.3g} Hz: least squares is biased in the "
-        f"inertia of {joints}. Use estimator tls or iv, or a lower filter.cutoff_hz"
+        f"inertia of {joints}. Use estimator cloe, tls or iv, or a lower filter.cutoff_hz"
     )
     return [sentence]
 

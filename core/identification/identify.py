@@ -1,12 +1,13 @@
 """Fit one model to measured motion, and judge the fit by every measure there is."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ..arrays import BaseParameters, JointVector
 from ..estimate.constraints import default_prior
 from ..estimate.estimate import Estimate, estimate
 from ..estimate.feasibility import active_constraints, feasibility
+from ..estimate.methods.auto import AUTO
 from ..estimate.methods.method import Step
 from ..estimate.plausibility import link_bounds
 from ..estimate.problem import ObservedProblem, Problem
@@ -14,7 +15,7 @@ from ..estimate.system import System
 from ..log.model import JointLog
 from ..numerics.block_bootstrap import block_draws
 from ..numerics.mapping import SERIAL, Mapper
-from ..precision.attenuation import attenuation
+from ..precision.attenuation import Attenuation, attenuation
 from ..precision.bootstrap import bootstrap
 from ..precision.endogeneity import endogeneity
 from ..precision.essential import essential_parameters
@@ -23,6 +24,7 @@ from ..regressor.observe import Observation, torque_scales
 from ..validation.excitation import excitation
 from ..validation.mass_matrix import check_mass_matrix, pseudo_inertia_eigenvalues, workspace
 from ..validation.scores import reversals_percent, scores, total_percent
+from .choice import LEAST_SQUARES, SPARED, Choice, choose
 from .convergence import Convergence, converge
 from .options import IdentifyOptions
 from .result import Identification
@@ -48,6 +50,16 @@ class Fit:
     """How an iterative estimator ended."""
     position_rms: JointVector | None
     """RMS of its simulated less the measured positions, rad or m; None where nothing was simulated."""
+    options: IdentifyOptions
+    """By which options it was fitted: with the estimator that was chosen, if the choice was left open."""
+    choice: Choice | None = None
+    """Which one that was; None where it was asked for."""
+
+    @property
+    def attenuation(self) -> Attenuation:
+        """Predict what noise of positions makes of the inertias of least squares."""
+        fitted, _ = self.observation.parts(self.problem.held_out)
+        return attenuation(self.observation, fitted, self.problem.motions, self.estimate.base)
 
 
 def fit(
@@ -56,6 +68,19 @@ def fit(
     """Fit one model to the motions, or to what was observed of them already."""
     if observation is None:
         observation = problem.observed(lambda done: tell("observe", 0.3 + 0.3 * done))
+
+    def fit_by(estimator: str) -> Fit:
+        return _fit(problem, replace(options, estimate=options.estimate.by(estimator)), tell, observation)
+
+    if options.estimate.estimator != AUTO:
+        return fit_by(options.estimate.estimator)
+    least = fit_by(LEAST_SQUARES)
+    found, choice = choose(problem, least, least.attenuation, lambda: fit_by(SPARED))
+    return replace(found, choice=choice)
+
+
+def _fit(problem: Problem, options: IdentifyOptions, tell: Progress, observation: Observation) -> Fit:
+    """Fit by the estimator that the options name."""
     tell("estimate", 0.6)
     asked = options.estimate
     data = ObservedProblem(
@@ -71,14 +96,12 @@ def fit(
         asked.method, data, solve, asked.iteration, lambda done: tell("simulate", 0.6 + 0.1 * done)
     )
     apart = data.position_rms(found.standard) if asked.method.iterative else None
-    return Fit(problem, observation, step, found, convergence, apart)
+    return Fit(problem, observation, step, found, convergence, apart, options)
 
 
-def judge(
-    logs: tuple[JointLog, ...], options: IdentifyOptions, found: Fit, tell: Progress, mapper: Mapper = SERIAL
-) -> Identification:
+def judge(logs: tuple[JointLog, ...], found: Fit, tell: Progress, mapper: Mapper = SERIAL) -> Identification:
     """Judge a fit: how well every parameter is known, and how well held-out blocks are predicted."""
-    problem, observation, answer = found.problem, found.observation, found.estimate
+    problem, observation, answer, options = found.problem, found.observation, found.estimate, found.options
     own, data, prior = found.step.system, found.step.data, answer.prior
     system = own.with_prior(problem.prior)
     base, model = problem.base, problem.base.model
@@ -134,5 +157,6 @@ def judge(
         endogeneity=None
         if own.carried is None
         else endogeneity(own, data.factors, data.memory, data.columns_of),
-        attenuation=attenuation(observation, fitted, problem.motions, answer.base),
+        attenuation=found.attenuation,
+        choice=found.choice,
     )

@@ -19,6 +19,7 @@ from ..simulation.controller_check import ControllerCheck
 from ..validation.excitation import ExcitationScore
 from ..validation.mass_matrix import MassMatrixCheck
 from ..validation.scores import JointScore
+from .choice import Choice
 from .convergence import Convergence
 
 
@@ -66,6 +67,8 @@ class Identification:
     """RMS of simulated less measured positions, rad or m; None where nothing was simulated."""
     endogeneity: Endogeneity | None
     """What instruments tell of errors in the measured motion; None where there are none."""
+    choice: Choice | None
+    """Why this estimator, where the choice was left open."""
     attenuation: Attenuation
     """What noise of positions makes of the inertias of least squares."""
 

@@ -34,10 +34,7 @@ class Attenuation:
 
 
 def attenuation(
-    observation: Observation,
-    fitted: tuple[int, ...],
-    motions: Sequence[Motion],
-    base: BaseParameters,
+    observation: Observation, fitted: tuple[int, ...], motions: Sequence[Motion], base: BaseParameters
 ) -> Attenuation:
     """Predict what least squares on the measured columns misses.
 

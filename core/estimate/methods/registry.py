@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 
+from .auto import Automatic
 from .didim import DirectInverse
 from .irls import IterativelyReweighted
 from .iv import InstrumentalVariables
@@ -23,6 +24,7 @@ _LISTED: tuple[Estimator, ...] = (
     CLOSED_LOOP_OUTPUT_ERROR,
     OPEN_LOOP_OUTPUT_ERROR,
     CompensatedLeastSquares(),
+    Automatic(),
 )
 ESTIMATORS: Mapping[str, Estimator] = {estimator.name: estimator for estimator in _LISTED}
 """The estimators by name, the default first."""
