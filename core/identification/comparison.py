@@ -22,6 +22,8 @@ COMPARE = "compare"
 """Option: the names of the estimators."""
 BEGINNING = "sdp"
 """Estimator by which robot and logs are held against each other before any is compared."""
+ALL = tuple(name for name in ESTIMATORS if name != AUTO)
+"""The estimators that are compared unless some are named: a choice among them is none."""
 _ACTS: Mapping[str, Callable[[Estimator], bool]] = {
     "bounds": lambda method: method.feasible,
     "prior.entropy": lambda method: method.feasible,
@@ -66,7 +68,7 @@ def read_estimators(options: Mapping[str, object]) -> tuple[str, ...]:
             remedy=f"name the estimators in the option {COMPARE}",
         )
     if names is None:
-        return tuple(name for name in ESTIMATORS if name != AUTO)
+        return ALL
     listed = [str(name) for name in names] if isinstance(names, list) else []
     if not 2 <= len(set(listed)) == len(listed) or not set(listed) <= set(ESTIMATORS):
         raise OptionError(

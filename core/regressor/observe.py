@@ -163,7 +163,7 @@ def observe(
     blocks = tuple(block for gathering in gathered for block in gathering.blocks())
     memory = _merged_by_joint(LaggedProducts.merged, [gathering.memory for gathering in gathered])
     turning = _merged_by_joint(TurningProducts.merged, [gathering.turning for gathering in gathered])
-    positions = np.vstack([position for gathering in gathered for position in gathering.positions])
+    positions = np.vstack([gathering.positions for gathering in gathered])
     return Observation(plan, blocks, source.columns_of, source.groups, memory, turning, positions, total)
 
 
@@ -200,7 +200,7 @@ class _Gathering:
         self.turning = [TurningProducts.empty(total) for total in totals]
         self._tails = [Tail(np.zeros((0, total)), _UNMARKED) for total in totals]
         self._blocks: dict[int, OpenBlock] = {}
-        self.positions: list[JointSeries] = []
+        self._positions: list[JointSeries] = []
 
     def take(self, tile: Tile, pairs: list[FilteredRows]) -> None:
         if not tile.follows:
@@ -224,7 +224,7 @@ class _Gathering:
         """Keep some of a block's positions."""
         step = 1 + (kept.stop - kept.start) // _POSITIONS_PER_BLOCK
         at = tile.first + tile.parallel.decimation * np.arange(kept.start, kept.stop, step)
-        self.positions.append(tile.state.position[at[:_POSITIONS_PER_BLOCK]])
+        self._positions.append(tile.state.position[at[:_POSITIONS_PER_BLOCK]])
 
     def _remember(self, joint: int, rows: np.ndarray, turning: np.ndarray, used: int) -> None:
         tail = self._tails[joint]
@@ -232,6 +232,10 @@ class _Gathering:
         joined = Tail(np.vstack([tail.rows, rows]), np.append(tail.turning, turning))
         self.turning[joint] = self.turning[joint].extended(joined.rows, joined.turning, len(tail.rows))
         self._tails[joint] = joined.last
+
+    @property
+    def positions(self) -> JointSeries:
+        return np.vstack(self._positions)
 
     def blocks(self) -> list[Block]:
         return [self._blocks[number].closed(self.log, number) for number in sorted(self._blocks)]
