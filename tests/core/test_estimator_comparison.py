@@ -11,10 +11,9 @@ from tests.app.planar_arm import columns, description
 from veritorque.app.schemas.comparison import ComparisonDocument
 from veritorque.app.terminal.output.comparison import print_comparison
 from veritorque.core.errors import OptionError
-from veritorque.core.estimate.methods.registry import ESTIMATORS
 from veritorque.core.estimator_comparison import compare_estimators
 from veritorque.core.export.comparison import comparison_csv, comparison_latex
-from veritorque.core.identification.comparison import read_estimators, read_options
+from veritorque.core.identification.comparison import ALL, read_estimators, read_options
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.study import IdentifyRequest, identify
@@ -46,7 +45,7 @@ def with_failure():
 
 
 def test_all_estimators_are_compared_by_default_and_each_is_what_it_is_alone(compared):
-    assert [row["estimator"] for row in compared["compared"]] == [name for name in ESTIMATORS if name != "auto"]
+    assert [row["estimator"] for row in compared["compared"]] == [*ALL]
     for row in compared["compared"]:
         alone = identify(request({"estimator": row["estimator"]}))
         for key in ("fit_total_percent", "validation_total_percent", "validation", "estimation"):
