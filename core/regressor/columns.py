@@ -4,6 +4,7 @@ A `ColumnPlan` decides once which series are wanted and where each one goes; it 
 stretch.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -14,7 +15,9 @@ from ..dynamics.model import DynamicModel
 from ..dynamics.term import Term, is_linearised
 from ..dynamics.terms.rigid_body import RigidBody
 from ..robot.model import RobotModel
+from ..signals.parallel import Tile
 from ..signals.state import MotionState
+from .factor import FilteredRows
 from .kernel import rigid_body_series
 
 
@@ -50,6 +53,11 @@ class ColumnPlan:
         """Give, per joint, the positions in `columns` of its non-zero series, in the order of `rows_of`."""
         columns = np.array([column for _, column in self.entries])
         return tuple(columns[rows] for rows in self.rows_of)
+
+    def combined(self, tile: Tile, rows: Iterable[FilteredRows]) -> Iterable[FilteredRows]:
+        """Combine the joints' filtered rows of a tile; a plain plan leaves them as they are."""
+        del tile
+        return rows
 
     def series(self, state: MotionState, robot: RobotModel | None = None) -> Series:
         """Give the torque per unit parameter, one row per entry.

@@ -211,7 +211,7 @@ def equations(plan: ColumnPlan, tile: Tile) -> Iterator[FilteredRows]:
 def _equations_of(plan: ColumnPlan, tile: Tile, other: Tile | None) -> Iterator[FilteredRows]:
     """Give the rows [w y] of a tile, or [z w y] with the columns of another one as instruments."""
     if other is None:
-        yield from equations(plan, tile)
+        yield from plan.combined(tile, equations(plan, tile))
         return
     pairs = zip(equations(plan, tile), equations(plan, other), strict=True)
     for (rows, usable), (instruments, _) in pairs:

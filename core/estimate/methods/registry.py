@@ -6,6 +6,7 @@ from .didim import DirectInverse
 from .irls import IterativelyReweighted
 from .iv import InstrumentalVariables
 from .method import Estimator
+from .ml import MaximumLikelihood
 from .ols import OrdinaryLeastSquares
 from .sdp import SemidefiniteProgramme
 from .tls import CompensatedLeastSquares
@@ -19,6 +20,7 @@ _LISTED: tuple[Estimator, ...] = (
     InstrumentalVariables(),
     DirectInverse(),
     CompensatedLeastSquares(),
+    MaximumLikelihood(),
 )
 ESTIMATORS: Mapping[str, Estimator] = {estimator.name: estimator for estimator in _LISTED}
 """The estimators by name, the default first."""
