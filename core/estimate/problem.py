@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import BlockKey, Indices, JointVector, Parameters
+from ..arrays import BaseParameters, BlockKey, Indices, JointMarks, JointVector, Parameters
 from ..errors import ExcitationError
 from ..reduction.base import BaseModel
 from ..regressor.column_noise import acceleration_columns, noise_products
@@ -15,6 +15,7 @@ from ..regressor.factor import Factor, Weigh
 from ..regressor.memory import LaggedProducts
 from ..regressor.observe import Observation, observe
 from ..regressor.rows import InstrumentedRows, RowSource
+from ..regressor.whitened import WhitenedRows
 from ..signals.condition import Motion
 from ..signals.filtered_noise import acceleration_variance
 from ..simulation.controller_check import ControllerCheck
@@ -22,12 +23,15 @@ from ..simulation.own_controller import controller_of
 from .compensation import Compensated
 from .gaussian_prior import GaussianPrior
 from .options import CONTROLLER, SimulationOptions
-from .reversals import reversal_weights
+from .reversals import ROWS_PER_PARAMETER, reversal_weights
 from .simulator import Simulator
 from .system import INSTRUMENTAL, LEAST_SQUARES, Criterion, ordinary, weighted
 
 CHANGE = 1e-4
 """Change of a parameter by which simulations are differentiated: the torque it takes over that of all."""
+
+LEAST_TORQUE_NOISE = 0.01
+"""Share of a residual's power that noise of the torque has at least."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,17 +167,41 @@ class ObservedProblem:
     def compensated(self) -> "ObservedProblem":
         """Take what noise of positions adds to the products of columns out of them.
 
-        The sign of a noisy speed has no linear model: rows beside reversals are left out, unless most are.
+        The sign of a noisy speed has no linear model: a joint's rows beside reversals are left out.
         """
         plan, variance = self.problem.plan, acceleration_variance(self.problem.motions)
         added = noise_products(plan, acceleration_columns(plan, self.observation.positions), variance)
-        products, weights = np.zeros((len(added), self.size, self.size)), np.zeros(len(added))
-        for joint, (own, place, moving, turning) in enumerate(
-            zip(added, self.columns_of, *self._groups, strict=True)
-        ):
-            weights[joint] = float(moving.rows < turning.rows)
+        products, weights = np.zeros((len(added), self.size, self.size)), 1.0 - self._drops_turning
+        parts = zip(added, self.columns_of, *self._groups, strict=True)
+        for joint, (own, place, moving, turning) in enumerate(parts):
             products[joint][np.ix_(place, place)] = own * (moving.rows + weights[joint] * turning.rows)
         return replace(self, weights=weights, criterion=Compensated(products))
+
+    @property
+    def _drops_turning(self) -> JointMarks:
+        """Mark the joints that have enough rows without those beside reversals."""
+        rows = np.array([factor.rows for factor in self._groups[0]])
+        return np.asarray(rows >= ROWS_PER_PARAMETER * np.array(list(map(len, self.columns_of))))
+
+    def whitened(self, base: BaseParameters, noise: JointVector) -> "ObservedProblem":
+        """Combine the joints' rows by the covariance that noise of positions gives them; compensate too."""
+        problem, plain, drops = self.problem, self.problem.plan, self._drops_turning
+        variance = acceleration_variance(problem.motions)
+        added = noise_products(plain, acceleration_columns(plain, self.observation.positions), variance)
+        taken = [base[place] @ own @ base[place] for own, place in zip(added, plain.columns_of, strict=True)]
+        torque = np.sqrt(np.maximum(noise**2 - np.array(taken), LEAST_TORQUE_NOISE * noise**2))
+        rows = WhitenedRows(plain, base, torque, np.sqrt(variance), noise, drops)
+        products = np.zeros((len(noise), self.size, self.size))
+        for number, motion in enumerate(problem.motions):
+            held = [block for log, block in problem.held_out if log == number]
+            for tile in motion.tiles():
+                products += rows.noise_products(tile, ~np.isin(tile.block, held))
+        return replace(
+            self,
+            observation=problem.observed(rows=rows),
+            weights=1.0 - drops,
+            criterion=Compensated(products),
+        )
 
     def position_rms(self, at: Parameters) -> JointVector:
         """Give the RMS of a robot's simulated less the measured positions at usable samples, rad or m."""

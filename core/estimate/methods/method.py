@@ -7,7 +7,7 @@ filter at its end. Whatever the method, its equations are solved as they are or 
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
-from ...arrays import Indices, JointVector, Parameters
+from ...arrays import BaseParameters, Indices, JointVector, Parameters
 from ...regressor.factor import Factor, Weigh
 from ...regressor.memory import LaggedProducts
 from ..system import Criterion, System
@@ -69,6 +69,12 @@ class FitData(Protocol):
 
     def compensated(self) -> "FitData":
         """Take what noise of positions adds to the products of columns out of them."""
+
+    def whitened(self, base: BaseParameters, noise: JointVector) -> "FitData":
+        """Combine the joints' rows by the covariance that noise of positions gives them; compensate too.
+
+        `noise` is the RMS residual of every joint that these parameters leave, N m.
+        """
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,6 +7,7 @@ from .didim import DirectInverse
 from .irls import IterativelyReweighted
 from .iv import InstrumentalVariables
 from .method import Estimator
+from .ml import MaximumLikelihood
 from .ols import OrdinaryLeastSquares
 from .output_error import CLOSED_LOOP_INPUT_ERROR, CLOSED_LOOP_OUTPUT_ERROR, OPEN_LOOP_OUTPUT_ERROR
 from .sdp import SemidefiniteProgramme
@@ -24,6 +25,7 @@ _LISTED: tuple[Estimator, ...] = (
     CLOSED_LOOP_OUTPUT_ERROR,
     OPEN_LOOP_OUTPUT_ERROR,
     CompensatedLeastSquares(),
+    MaximumLikelihood(),
     Automatic(),
 )
 ESTIMATORS: Mapping[str, Estimator] = {estimator.name: estimator for estimator in _LISTED}
