@@ -6,6 +6,8 @@ import numpy as np
 
 from ..arrays import JointVector
 from ..estimate.methods.registry import ESTIMATORS
+from ..identification.choice import BIASED
+from ..identification.doubts import LEAST_SQUARES
 from ..identification.result import Identification
 from ..precision.endogeneity import SIGNIFICANCE, Endogeneity
 from ..simulation.controller_check import ControllerCheck
@@ -66,7 +68,8 @@ def _statements(found: Identification) -> Iterator[str]:
         yield f"It simulated the logs {steps} time{'s' * (steps != 1)}: {ended.reason}."
     if found.endogeneity is not None:
         yield _difference(found.endogeneity)
-    yield from _attenuated(100.0 * found.attenuation.missed)
+    if found.estimator in LEAST_SQUARES:
+        yield from _attenuated(found.attenuation.missed)
 
 
 def _recognised(number: int, check: ControllerCheck) -> str:
@@ -79,13 +82,13 @@ def _recognised(number: int, check: ControllerCheck) -> str:
     )
 
 
-def _attenuated(percent: JointVector) -> Iterator[str]:
-    sizes = np.nan_to_num(np.abs(percent))
-    if sizes.any():
+def _attenuated(shares: JointVector) -> Iterator[str]:
+    sizes = np.nan_to_num(np.abs(shares))
+    if np.max(sizes, initial=0.0) > 0.1 * BIASED:
         joint = int(np.argmax(sizes))
         yield (
-            f"Noise of positions attenuates the inertias that least squares finds by {sizes[joint]:.2g} % at "
-            f"most (joint {joint + 1})."
+            f"Noise of positions attenuates the inertias that least squares finds by "
+            f"{100.0 * sizes[joint]:.2g} % at most (joint {joint + 1})."
         )
 
 

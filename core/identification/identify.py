@@ -24,7 +24,7 @@ from ..regressor.observe import Observation, torque_scales
 from ..validation.excitation import excitation
 from ..validation.mass_matrix import check_mass_matrix, pseudo_inertia_eigenvalues, workspace
 from ..validation.scores import reversals_percent, scores, total_percent
-from .choice import LEAST_SQUARES, SPARED, Choice, choose
+from .choice import SPARED, USUAL, Choice, choose
 from .convergence import Convergence, converge
 from .options import IdentifyOptions
 from .result import Identification
@@ -74,7 +74,7 @@ def fit(
 
     if options.estimate.estimator != AUTO:
         return fit_by(options.estimate.estimator)
-    least = fit_by(LEAST_SQUARES)
+    least = fit_by(USUAL)
     found, choice = choose(problem, least, least.attenuation, lambda: fit_by(SPARED))
     return replace(found, choice=choice)
 

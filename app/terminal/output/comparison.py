@@ -1,6 +1,6 @@
 """Print a comparison of estimators: errors and cost first, then the parameters."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from rich.console import Console
@@ -21,9 +21,8 @@ def print_comparison(console: Console, result: Document) -> None:
     for line in reading_lines(result):
         console.print(line)
     print_table(console, estimator_columns(result["compared"]), title="Estimators")
-    for row in result["compared"]:
-        for line in remarks(row):
-            console.print(escape(line))
+    for line in remarks(result["compared"]):
+        console.print(escape(line))
     given = [row for row in result["compared"] if row["base_parameters"]]
     print_table(console, parameter_columns(given), title="Base parameters ± standard deviation")
 
@@ -60,15 +59,26 @@ def motion_percent(motion: Document | None) -> float | None:
     return float(100.0 * (sum(share**2 for share in shares) / len(shares)) ** 0.5)
 
 
-def remarks(row: Document) -> list[str]:
-    """Say why an estimator failed or could not be simulated, how it ended, and what instruments tell."""
-    name, failure, ended = row["estimator"], row["failure"], row["estimation"]
-    lines = [] if failure is None else [f"{name}: {failure['cause']}; {failure['remedy']}"]
-    if ended is not None:  # the first sentence names the estimator
-        lines += [f"{name}: {sentence}" for sentence in ended["statements"][1:]]
+def remarks(compared: Sequence[Document]) -> list[str]:
+    """Say why estimators failed or could not be simulated, how they ended, and what instruments tell.
+
+    What is said of several is said once.
+    """
+    said: dict[str, list[str]] = {}
+    for row in compared:
+        for sentence in _remarks(row):
+            said.setdefault(sentence, []).append(row["estimator"])
+    return [f"{', '.join(names)}: {sentence}" for sentence, names in said.items()]
+
+
+def _remarks(row: Document) -> Iterator[str]:
+    failure, ended = row["failure"], row["estimation"]
+    if failure is not None:
+        yield f"{failure['cause']}; {failure['remedy']}"
+    if ended is not None:
+        yield from ended["statements"][1:]  # the first sentence names the estimator
     if row["simulated_motion_note"]:
-        lines.append(f"{name}: motion was not simulated: {row['simulated_motion_note']}.")
-    return lines
+        yield f"motion was not simulated: {row['simulated_motion_note']}."
 
 
 def parameter_columns(given: Sequence[Document]) -> list[Column]:

@@ -54,15 +54,22 @@ function motion(found) {
   return shares.length ? 100 * Math.sqrt(shares.reduce((sum, share) => sum + share ** 2, 0) / shares.length) : null;
 }
 
-// Why an estimator failed or could not be simulated, how it ended, and what its instruments tell.
+// Why an estimator failed or could not be simulated, how it ended, and what its instruments tell; what is said
+// of several once.
 function remarks(compared) {
-  const said = compared.flatMap((row) => [
-    row.failure ? `${row.estimator}: ${row.failure.cause}; ${row.failure.remedy}.` : null,
-    row.simulated_motion_note ? `${row.estimator}: motion was not simulated: ${row.simulated_motion_note}.` : null,
-    // The first sentence names the estimator.
-    ...(row.estimation?.statements.slice(1).map((text) => `${row.estimator}: ${text}`) ?? []),
-  ]).filter(Boolean);
-  return said.length ? element("ul", {}, said.map((text) => element("li", {}, text))) : null;
+  const said = new Map();
+  for (const row of compared) {
+    for (const text of remarksOf(row)) said.set(text, [...(said.get(text) ?? []), row.estimator]);
+  }
+  return said.size ? element("ul", {}, [...said].map(([text, names]) => element("li", {}, `${names.join(", ")}: ${text}`))) : null;
+}
+
+function remarksOf(row) {
+  return [
+    row.failure ? `${row.failure.cause}; ${row.failure.remedy}.` : null,
+    row.simulated_motion_note ? `motion was not simulated: ${row.simulated_motion_note}.` : null,
+    ...(row.estimation?.statements.slice(1) ?? []), // the first sentence names the estimator
+  ].filter(Boolean);
 }
 
 function showParameters(container, { document }) {
