@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from ..estimate.innovations import Innovations, Track
 from ..estimate.methods.registry import ESTIMATORS
 from ..identification.result import Identification
 from ..precision.endogeneity import SIGNIFICANCE, Endogeneity
@@ -21,7 +22,14 @@ def estimation_fields(found: Identification) -> dict[str, object]:
         "steps": [vars(step) for step in ended.steps],
         "simulation": _simulation(found) if method.iterative else None,
         "instruments": None if found.endogeneity is None else vars(found.endogeneity),
+        "innovations": None if found.innovations is None else vars(found.innovations),
+        "over_time": None if found.track is None else _over_time(found.track),
     }
+
+
+def _over_time(track: Track) -> dict[str, object]:
+    """Give the parameters at the ends of the fitted blocks, in the order of the base parameters."""
+    return {**vars(track), "log": [number + 1 for number in track.log]}
 
 
 def _simulation(found: Identification) -> dict[str, object]:
@@ -51,7 +59,10 @@ def _statements(found: Identification) -> Iterator[str]:
         yield _recognised(number, check)
     if method.iterative:
         steps = len(ended.steps)
-        yield f"It simulated the logs {steps} time{'s' * (steps != 1)}: {ended.reason}."
+        went = "simulated" if found.innovations is None else "filtered"
+        yield f"It {went} the logs {steps} time{'s' * (steps != 1)}: {ended.reason}."
+    if found.innovations is not None:
+        yield _foreseen(found.innovations)
     if found.endogeneity is not None:
         yield _difference(found.endogeneity)
 
@@ -63,6 +74,16 @@ def _recognised(number: int, check: ControllerCheck) -> str:
     return (
         f"Log {number} was driven by {kind} (velocity: {rule}, delay {model.delay_samples} samples), which "
         f"recomputes its {check.channel.replace('_', ' ')} within {worst:.2g} %."
+    )
+
+
+def _foreseen(told: Innovations) -> str:
+    """Say how well a filter foresaw the positions."""
+    low, high = float(told.variance.min()), float(told.variance.max())
+    return (
+        f"What it did not foresee of the positions has {low:.2g} to {high:.2g} times the variance that it "
+        f"expected. Its blocks scatter {told.dispersion:.2g} times as much (variance), which the deviations "
+        "of the parameters contain."
     )
 
 

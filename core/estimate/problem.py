@@ -12,15 +12,18 @@ from ..reduction.base import BaseModel
 from ..regressor.columns import ColumnPlan
 from ..regressor.factor import Factor, Weigh
 from ..regressor.memory import LaggedProducts
-from ..regressor.observe import Observation, Tiled, observe
+from ..regressor.observe import Observation, Tiled, observe, torque_scales
 from ..signals.condition import Motion
 from ..simulation.controller_check import ControllerCheck
 from ..simulation.mechanism import mechanism_of
 from ..simulation.own_controller import controller_of
+from .filter_start import FilterStart
 from .gaussian_prior import GaussianPrior
-from .options import CONTROLLER, SimulationOptions
+from .innovations import Innovations, Track
+from .methods.method import FitData
+from .options import CONTROLLER, KalmanOptions, SimulationOptions
 from .reversals import reversal_weights
-from .system import INSTRUMENTAL, LEAST_SQUARES, Criterion, ordinary
+from .system import INSTRUMENTAL, LEAST_SQUARES, Criterion, ordinary, weighted
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +78,8 @@ class ObservedProblem:
     """How the motions are replayed, where columns of simulated motion are asked for."""
     criterion: Criterion = LEAST_SQUARES
     """How the factors become equations."""
+    kalman: KalmanOptions = field(default_factory=KalmanOptions)
+    """What a Kalman filter assumes."""
 
     @property
     def size(self) -> int:
@@ -144,6 +149,36 @@ class ObservedProblem:
             problem.plan, problem.motions, held_out=problem.held_out, instruments=self._moved(at)
         )
         return replace(self, observation=beside, criterion=INSTRUMENTAL)
+
+    def filtered(self, at: Parameters, *, unscented: bool) -> tuple[FitData, Innovations]:
+        """Take what a Kalman filter learns of the parameters that starts at these."""
+        from .filtering import follow  # compiled for some ten seconds, hence only for who filters
+        from .followed import FollowedProblem
+
+        start, problem = self._filter_start(at, unscented=unscented), self.problem
+        own = FollowedProblem(self, follow(start, problem.motions, problem.held_out))
+        return own, own.innovations
+
+    def tracked(self, at: Parameters, *, unscented: bool) -> Track:
+        """Follow parameters over time that drift by the share of their values that was asked for."""
+        from .filtering import follow  # compiled, too
+
+        start, problem = self._filter_start(at, unscented=unscented), self.problem
+        return follow(
+            start, problem.motions, problem.held_out, self.kalman.drift * np.abs(start.values)
+        ).track
+
+    def _filter_start(self, at: Parameters, *, unscented: bool) -> FilterStart:
+        own = self.simulated(at).discounted()
+        return FilterStart(
+            self.problem.base,
+            at,
+            weighted(own.factors, own.columns_of, own.size),
+            torque_scales(self.observation, self.fitted),
+            self.simulation.substeps,
+            self.kalman,
+            unscented,
+        )
 
     def position_rms(self, at: Parameters) -> JointVector:
         """Give the RMS of a robot's simulated less the measured positions at usable samples, rad or m."""

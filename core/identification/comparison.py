@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from ..errors import ExcitationError, LogError, OptionError, SolverError, VeritorqueError
+from ..estimate.methods.kalman import KalmanFilter
 from ..estimate.methods.method import Estimator
 from ..estimate.methods.registry import ESTIMATORS
 from ..estimate.problem import Problem
@@ -26,6 +27,7 @@ _ACTS: Mapping[str, Callable[[Estimator], bool]] = {
     "robust": lambda method: method.row_weights,
     "simulation": lambda method: method.iterative,
     "iteration": lambda method: method.iterative,
+    "kalman": lambda method: isinstance(method, KalmanFilter),
 }
 """Options that do not act on every estimator."""
 

@@ -9,7 +9,8 @@ from typing import Protocol, runtime_checkable
 
 from ...arrays import Indices, JointVector, Parameters
 from ...regressor.factor import Factor, Weigh
-from ...regressor.memory import LaggedProducts
+from ...regressor.memory import Memory
+from ..innovations import Innovations
 from ..system import Criterion, System
 
 
@@ -38,7 +39,7 @@ class FitData(Protocol):
         """Give, per joint, the factors of all fitted blocks merged."""
 
     @property
-    def memory(self) -> tuple[LaggedProducts, ...]:
+    def memory(self) -> tuple[Memory, ...]:
         """Give, per joint, the lagged products of the fitted rows."""
 
     @property
@@ -61,6 +62,9 @@ class FitData(Protocol):
     def instrumented(self, at: Parameters) -> "FitData":
         """Put those columns before the measured ones, as instruments."""
 
+    def filtered(self, at: Parameters, *, unscented: bool) -> "tuple[FitData, Innovations]":
+        """Take what a Kalman filter learns of the parameters that starts at these."""
+
 
 @dataclass(frozen=True, eq=False)
 class Step:
@@ -69,6 +73,8 @@ class Step:
     system: System
     data: FitData
     """The data with rows weighted as in the equations: precision and bootstrap are taken from them."""
+    innovations: Innovations | None = None
+    """What a filter says of itself; None where nothing was filtered."""
 
 
 @runtime_checkable

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from .didim import DirectInverse
 from .irls import IterativelyReweighted
 from .iv import InstrumentalVariables
+from .kalman import EXTENDED, UNSCENTED
 from .method import Estimator
 from .ols import OrdinaryLeastSquares
 from .sdp import SemidefiniteProgramme
@@ -17,6 +18,8 @@ _LISTED: tuple[Estimator, ...] = (
     IterativelyReweighted(),
     InstrumentalVariables(),
     DirectInverse(),
+    EXTENDED,
+    UNSCENTED,
 )
 ESTIMATORS: Mapping[str, Estimator] = {estimator.name: estimator for estimator in _LISTED}
 """The estimators by name, the default first."""
