@@ -74,6 +74,25 @@ class Attenuation(Open):
     cutoff_hz: Annotated[float, about("of the parallel filter; the widest of all logs")]
 
 
+class Innovations(Open):
+    """What a Kalman filter assumed, and how well it foresaw the positions."""
+
+    position_noise: Annotated[list[float], about("deviation per joint that it assumed, rad or m")]
+    torque_noise: Annotated[list[float], about("the same of the filtered torque, N m or N")]
+    variance: Annotated[list[float], about("of what was not foreseen, over what was expected, per joint")]
+    shortened: Annotated[float, about("share of samples at which parameters had to differ by less")]
+    dispersion: Annotated[float, about("factor on variances by which blocks scatter more than expected")]
+
+
+class OverTime(Open):
+    """The base parameters over time, at the ends of the fitted blocks."""
+
+    log: Annotated[list[int], about("number of the log at every instant, from 1")]
+    time: Annotated[list[float], about("s")]
+    value: Annotated[list[list[float]], about("per instant, in the order of the base parameters")]
+    standard_deviation: Annotated[list[list[float]], about("per instant, as the filter expects")]
+
+
 class Estimation(Open):
     """By which estimator a robot was fitted, and how it ended."""
 
@@ -92,6 +111,8 @@ class Estimation(Open):
     ]
     instruments: Instruments | None
     attenuation: Attenuation | None = None
+    innovations: Annotated[Innovations | None, about("null where no filter was used")] = None
+    over_time: Annotated[OverTime | None, about("null where parameters were not followed")] = None
 
 
 class ModelName(Open):

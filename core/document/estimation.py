@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..arrays import JointVector
+from ..estimate.innovations import Innovations, Track
 from ..estimate.methods.registry import ESTIMATORS
 from ..identification.choice import BIASED
 from ..identification.doubts import LEAST_SQUARES
@@ -32,7 +33,14 @@ def estimation_fields(found: Identification) -> dict[str, object]:
             "position_noise": found.attenuation.noise,
             "cutoff_hz": found.attenuation.cutoff_hz,
         },
+        "innovations": None if found.innovations is None else vars(found.innovations),
+        "over_time": None if found.track is None else _over_time(found.track),
     }
+
+
+def _over_time(track: Track) -> dict[str, object]:
+    """Give the parameters at the ends of the fitted blocks, in the order of the base parameters."""
+    return {**vars(track), "log": [number + 1 for number in track.log]}
 
 
 def _simulation(found: Identification) -> dict[str, object]:
@@ -65,7 +73,10 @@ def _statements(found: Identification) -> Iterator[str]:
         yield _recognised(number, check)
     if method.iterative:
         steps = len(ended.steps)
-        yield f"It simulated the logs {steps} time{'s' * (steps != 1)}: {ended.reason}."
+        went = "simulated" if found.innovations is None else "filtered"
+        yield f"It {went} the logs {steps} time{'s' * (steps != 1)}: {ended.reason}."
+    if found.innovations is not None:
+        yield _foreseen(found.innovations)
     if found.endogeneity is not None:
         yield _difference(found.endogeneity)
     if found.estimator in LEAST_SQUARES:
@@ -90,6 +101,16 @@ def _attenuated(shares: JointVector) -> Iterator[str]:
             f"Noise of positions attenuates the inertias that least squares finds by "
             f"{100.0 * sizes[joint]:.2g} % at most (joint {joint + 1})."
         )
+
+
+def _foreseen(told: Innovations) -> str:
+    """Say how well a filter foresaw the positions."""
+    low, high = float(told.variance.min()), float(told.variance.max())
+    return (
+        f"What it did not foresee of the positions has {low:.2g} to {high:.2g} times the variance that it "
+        f"expected. Its blocks scatter {told.dispersion:.2g} times as much (variance), which the deviations "
+        "of the parameters contain."
+    )
 
 
 def _difference(found: Endogeneity) -> str:

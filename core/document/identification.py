@@ -197,11 +197,12 @@ def held_out_spans(found: Identification, keys: Collection[BlockKey]) -> list[di
 
 
 def _precision(found: Identification) -> dict[str, object]:
-    system = found.estimate.system
+    system, filtered, factor = found.estimate.system, found.innovations, found.precision.memory_factor
     return {
         "equations": system.rows,
-        "noise": system.noise,
-        "memory_factor": found.precision.memory_factor,
+        "noise": system.noise if filtered is None else filtered.torque_noise,
+        "memory_factor": factor if filtered is None else [1.0] * len(filtered.torque_noise),
+        "standard_deviation_kind": "sandwich" if filtered is None else "blocks",
         "information_factor": write_factor(found.precision.root),
         "left_out_percent": 100.0 * (1.0 - _used_share(found.observation)),
         "reversal_weights": found.reversal_weights,

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 
 from ..errors import OptionError
 from .constraints import Bounds
+from .methods.kalman import KalmanFilter
 from .methods.method import Estimator
 from .methods.registry import ESTIMATORS
 
@@ -77,6 +78,31 @@ class IterationOptions:
 
 
 @dataclass(frozen=True)
+class KalmanOptions:
+    """Choose what a Kalman filter assumes."""
+
+    position_noise: float = 1.0
+    """Factor on the noise of positions that the log shows."""
+    torque_noise: float = 1.0
+    """Factor on the noise of torques that the first fit leaves."""
+    start_scale: float = 10.0
+    """Factor on the deviations of the first fit's parameters, with which the filter begins."""
+    drift: float = 0.0
+    """Random walk of the parameters that are followed over time, per square root of a second, as a share of
+    their values; 0 for not to follow them. The estimate itself is of parameters that do not drift."""
+
+    def __post_init__(self) -> None:
+        """Refuse noise that is none, and a start that nothing corrects or nothing tells of."""
+        factors = (self.position_noise, self.torque_noise, self.start_scale)
+        if not all(1e-3 <= factor <= 1e3 for factor in factors) or not 0.0 <= self.drift <= 1.0:
+            raise OptionError(
+                "the options of the Kalman filter are not valid",
+                evidence=vars(self),
+                remedy="give factors from 0.001 to 1000, and a drift from 0 to 1",
+            )
+
+
+@dataclass(frozen=True)
 class EstimateOptions:
     """Choose how to estimate."""
 
@@ -94,6 +120,7 @@ class EstimateOptions:
     bounds: Bounds = field(default_factory=Bounds)
     simulation: SimulationOptions = field(default_factory=SimulationOptions)
     iteration: IterationOptions = field(default_factory=IterationOptions)
+    kalman: KalmanOptions = field(default_factory=KalmanOptions)
 
     @property
     def method(self) -> Estimator:
@@ -161,6 +188,7 @@ class EstimateOptions:
             "simulation.from and simulation.bandwidth_hz": (not method.free, controlled),
             "simulation.window_seconds": (method.free, simulation.window_seconds != usual.window_seconds),
             "iteration": (method.iterative, self.iteration != IterationOptions()),
+            "kalman": (isinstance(method, KalmanFilter), self.kalman != KalmanOptions()),
         }
         without = [name for name, (acts, is_set) in options.items() if is_set and not acts]
         return [name for name in without if not ("simulation" in without and name.startswith("simulation."))]

@@ -13,7 +13,7 @@ from ..regressor.column_noise import acceleration_columns, noise_products
 from ..regressor.columns import ColumnPlan
 from ..regressor.factor import Factor, Weigh
 from ..regressor.memory import LaggedProducts
-from ..regressor.observe import Observation, observe
+from ..regressor.observe import Observation, observe, torque_scales
 from ..regressor.rows import InstrumentedRows, RowSource
 from ..regressor.whitened import WhitenedRows
 from ..signals.condition import Motion
@@ -21,15 +21,17 @@ from ..signals.filtered_noise import acceleration_variance
 from ..simulation.controller_check import ControllerCheck
 from ..simulation.own_controller import controller_of
 from .compensation import Compensated
+from .filter_start import FilterStart
 from .gaussian_prior import GaussianPrior
-from .options import CONTROLLER, SimulationOptions
+from .innovations import Innovations, Track
+from .methods.method import Equations
+from .options import CONTROLLER, KalmanOptions, SimulationOptions
 from .reversals import ROWS_PER_PARAMETER, reversal_weights
 from .simulator import Simulator
 from .system import INSTRUMENTAL, LEAST_SQUARES, Criterion, ordinary, weighted
 
 CHANGE = 1e-4
 """Change of a parameter by which simulations are differentiated: the torque it takes over that of all."""
-
 LEAST_TORQUE_NOISE = 0.01
 """Share of a residual's power that noise of the torque has at least."""
 
@@ -89,6 +91,8 @@ class ObservedProblem:
     """How the motions are replayed, where columns of simulated motion are asked for."""
     criterion: Criterion = LEAST_SQUARES
     """How the factors become equations."""
+    kalman: KalmanOptions = field(default_factory=KalmanOptions)
+    """What a Kalman filter assumes."""
 
     @property
     def size(self) -> int:
@@ -201,6 +205,36 @@ class ObservedProblem:
             observation=problem.observed(rows=rows),
             weights=1.0 - drops,
             criterion=Compensated(products),
+        )
+
+    def filtered(self, at: Parameters, *, unscented: bool) -> tuple[Equations, Innovations]:
+        """Take what a Kalman filter learns of the parameters that starts at these."""
+        from .filtering import follow  # compiled for some ten seconds, hence only for who filters
+        from .followed import FollowedProblem
+
+        start, problem = self._filter_start(at, unscented=unscented), self.problem
+        own = FollowedProblem(follow(start, problem.motions, problem.held_out))
+        return own, own.innovations
+
+    def tracked(self, at: Parameters, *, unscented: bool) -> Track:
+        """Follow parameters over time that drift by the share of their values that was asked for."""
+        from .filtering import follow  # compiled, too
+
+        start, problem = self._filter_start(at, unscented=unscented), self.problem
+        return follow(
+            start, problem.motions, problem.held_out, self.kalman.drift * np.abs(start.values)
+        ).track
+
+    def _filter_start(self, at: Parameters, *, unscented: bool) -> FilterStart:
+        own = self.simulated(at).discounted()
+        return FilterStart(
+            self.problem.base,
+            at,
+            weighted(own.factors, own.columns_of, own.size),
+            torque_scales(self.observation, self.fitted),
+            self.simulation.substeps,
+            self.kalman,
+            unscented,
         )
 
     def position_rms(self, at: Parameters) -> JointVector:

@@ -7,7 +7,9 @@ from ..arrays import BaseParameters, JointVector
 from ..estimate.constraints import default_prior
 from ..estimate.estimate import Estimate, estimate
 from ..estimate.feasibility import active_constraints, feasibility
+from ..estimate.innovations import Track
 from ..estimate.methods.auto import AUTO
+from ..estimate.methods.kalman import KalmanFilter
 from ..estimate.methods.method import Step
 from ..estimate.plausibility import link_bounds
 from ..estimate.problem import ObservedProblem, Problem
@@ -50,6 +52,8 @@ class Fit:
     """How an iterative estimator ended."""
     position_rms: JointVector | None
     """RMS of its simulated less the measured positions, rad or m; None where nothing was simulated."""
+    track: Track | None
+    """Its parameters over time; None where they were not followed."""
     options: IdentifyOptions
     """By which options it was fitted: with the estimator that was chosen, if the choice was left open."""
     choice: Choice | None = None
@@ -84,7 +88,12 @@ def _fit(problem: Problem, options: IdentifyOptions, tell: Progress, observation
     tell("estimate", 0.6)
     asked = options.estimate
     data = ObservedProblem(
-        problem, observation, asked.robust, asked.weigh_reversals, simulation=asked.simulation
+        problem,
+        observation,
+        asked.robust,
+        asked.weigh_reversals,
+        simulation=asked.simulation,
+        kalman=asked.kalman,
     )
     data.check_excitation()
     prior = default_prior(problem.base.model, torque_scales(observation, data.fitted), problem.sizes)
@@ -95,8 +104,12 @@ def _fit(problem: Problem, options: IdentifyOptions, tell: Progress, observation
     step, found, convergence = converge(
         asked.method, data, solve, asked.iteration, lambda done: tell("simulate", 0.6 + 0.1 * done)
     )
-    apart = data.position_rms(found.standard) if asked.method.iterative else None
-    return Fit(problem, observation, step, found, convergence, apart, options)
+    method = asked.method
+    apart = data.position_rms(found.standard) if method.iterative else None
+    track = None
+    if isinstance(method, KalmanFilter) and asked.kalman.drift > 0.0:
+        track = data.tracked(found.standard, unscented=method.unscented)
+    return Fit(problem, observation, step, found, convergence, apart, track, options)
 
 
 def judge(logs: tuple[JointLog, ...], found: Fit, tell: Progress, mapper: Mapper = SERIAL) -> Identification:
@@ -154,6 +167,8 @@ def judge(logs: tuple[JointLog, ...], found: Fit, tell: Progress, mapper: Mapper
         simulation=options.estimate.simulation,
         controllers=problem.controllers if options.estimate.simulates_controllers else (),
         position_rms=found.position_rms,
+        innovations=found.step.innovations,
+        track=found.track,
         endogeneity=None
         if own.carried is None
         else endogeneity(own, data.factors, data.memory, data.columns_of),

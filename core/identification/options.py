@@ -12,7 +12,7 @@ import numpy as np
 from ..dynamics.model import STANDARD_TERMS
 from ..errors import OptionError
 from ..estimate.constraints import Bounds, CentreBox, CentreEllipsoid, LinkSize
-from ..estimate.options import EstimateOptions, IterationOptions, SimulationOptions
+from ..estimate.options import EstimateOptions, IterationOptions, KalmanOptions, SimulationOptions
 from ..fields import Fields, scalar_meanings
 from ..signals.recipe import FilterOptions
 from ..validation.holdout import HoldOut
@@ -102,6 +102,7 @@ _SECTIONS = {
     "bounds": BOUND_FIELDS,
     "simulation": SIMULATION_FIELDS,
     "iteration": scalar_meanings(IterationOptions),
+    "kalman": scalar_meanings(KalmanOptions),
 }
 _SCALARS = {
     "estimator": "the name of an estimator",
@@ -180,6 +181,7 @@ def _options(
                 bounds=_bounds(inner["bounds"]),
                 simulation=_simulation(inner["simulation"]),
                 iteration=inner["iteration"].record(IterationOptions()),
+                kalman=inner["kalman"].record(KalmanOptions()),
                 **prior,
             ),
             validation=_validation(inner["validation"], hold_out),

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from ..arrays import BlockKey, JointVector, Matrix
 from ..estimate.estimate import Estimate
 from ..estimate.feasibility import Feasibility
+from ..estimate.innovations import Innovations, Track
 from ..estimate.options import SimulationOptions
 from ..log.model import JointLog
 from ..precision.attenuation import Attenuation
@@ -65,6 +66,10 @@ class Identification:
     """The logs' own controllers, where these drove the simulated robot."""
     position_rms: JointVector | None
     """RMS of simulated less measured positions, rad or m; None where nothing was simulated."""
+    innovations: Innovations | None
+    """What a Kalman filter says of itself; None where nothing was filtered."""
+    track: Track | None
+    """The parameters over time; None where they were not followed."""
     endogeneity: Endogeneity | None
     """What instruments tell of errors in the measured motion; None where there are none."""
     choice: Choice | None

@@ -14,7 +14,7 @@ from ..arrays import BaseParameters, Indices, Matrix
 from ..estimate.system import RANK_TOLERANCE, System, column_scale, solved_by, stacked
 from ..numerics.chi2_tail import log_chi2_tail
 from ..regressor.factor import INSTRUMENT, Factor
-from ..regressor.memory import LaggedProducts
+from ..regressor.memory import Memory
 from .inference import inverse_information
 
 SIGNIFICANCE = 0.05
@@ -38,10 +38,7 @@ class Endogeneity:
 
 
 def endogeneity(
-    system: System,
-    factors: tuple[Factor, ...],
-    memory: tuple[LaggedProducts, ...],
-    columns_of: tuple[Indices, ...],
+    system: System, factors: tuple[Factor, ...], memory: tuple[Memory, ...], columns_of: tuple[Indices, ...]
 ) -> Endogeneity:
     """Compare instrumental variables with least squares on the same rows and weights.
 
@@ -81,10 +78,7 @@ def _without_instruments(factor: Factor) -> Factor:
 
 
 def _spread(
-    memory: tuple[LaggedProducts, ...],
-    columns_of: tuple[Indices, ...],
-    system: System,
-    values: BaseParameters,
+    memory: tuple[Memory, ...], columns_of: tuple[Indices, ...], system: System, values: BaseParameters
 ) -> Matrix:
     """Give [Z W]'V [Z W] of the weighted rows."""
     size = len(values)

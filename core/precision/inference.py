@@ -14,7 +14,7 @@ import numpy as np
 from ..arrays import BaseParameters, Indices, JointVector, Matrix, SquareMatrix, Vector, Weights
 from ..estimate.gaussian_prior import GaussianPrior
 from ..estimate.system import System, column_scale
-from ..regressor.memory import LaggedProducts
+from ..regressor.memory import Memory
 
 _RANK_TOLERANCE = 1e-8
 _ROUNDS = 3
@@ -69,7 +69,7 @@ class Inference:
 
 def infer(
     system: System,
-    memory: tuple[LaggedProducts, ...],
+    memory: tuple[Memory, ...],
     columns_of: tuple[Indices, ...],
     base: BaseParameters,
     *,
@@ -110,15 +110,13 @@ def infer(
     return Inference(information, meat, _open_share(system.triangle), factors)
 
 
-def _own_spread(products: LaggedProducts, autocovariance: Vector) -> SquareMatrix:
+def _own_spread(products: Memory, autocovariance: Vector) -> SquareMatrix:
     """Give Z'V Z where there are instruments, and W'V W where there are none."""
     spread = products.spread(autocovariance)
     return spread[: products.instruments, : products.instruments] if products.instruments else spread
 
 
-def _true_autocovariance(
-    products: LaggedProducts, values: BaseParameters, covariance: SquareMatrix
-) -> Vector:
+def _true_autocovariance(products: Memory, values: BaseParameters, covariance: SquareMatrix) -> Vector:
     """Estimate the noise's autocovariance from the residual's, which the fit has made smaller.
 
     A fit takes sum_t w(t)' C w(t + l) out of lag l, C being the covariance of what was fitted; for

@@ -8,11 +8,34 @@ z stand before w, it is Z'V Z that is wanted. Source: Newey & West 1987, in its 
 """
 
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 
 from ..arrays import Indices, Matrix, Parameters, Rows, SampleMask, Vector
+
+
+@runtime_checkable
+class Memory(Protocol):
+    """Tell how the rows of equations scatter, which need not be independent."""
+
+    @property
+    def rows(self) -> int:
+        """Count the rows."""
+
+    @property
+    def instruments(self) -> int:
+        """Count the columns of instruments."""
+
+    @property
+    def of_regressor(self) -> np.ndarray:
+        """Give, per lag, what a fit takes of the residual for parameters of unit covariance."""
+
+    def autocovariance(self, parameters: Parameters) -> Vector:
+        """Sum the residual's products per lag, for these parameters."""
+
+    def spread(self, autocovariance: Vector) -> Matrix:
+        """Give the covariance of the columns' products with the noise, for this autocovariance of it."""
 
 
 @dataclass(frozen=True, eq=False)

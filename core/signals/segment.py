@@ -133,6 +133,10 @@ class Segment:
             follows=follows,
         )
 
+    def measured_positions(self, begin: int, end: int) -> JointSeries:
+        """Give the positions (rad or m) of some samples without spikes, but not filtered."""
+        return self._read(begin, end)[0]
+
     def effort(self, first_kept: int, last_kept: int) -> tuple[JointSeries, int]:
         """Give the effort that such decimated samples see, and the sample at which the first of them lies."""
         begin, end = self._seen(first_kept, last_kept)

@@ -82,7 +82,7 @@ class Loop:
                 evidence={"step": self.step, "substeps": self.substeps},
                 remedy="give a positive time between samples and at least one step from each to the next",
             )
-        left = _not_compiled(self.mechanism)
+        left = not_compiled(self.mechanism)
         if left:
             raise OptionError(
                 "the compiled loop does not simulate all terms of the model",
@@ -165,7 +165,7 @@ class Loop:
         return failure(joint, float(speed[joint]), time)
 
 
-def _not_compiled(mechanism: Mechanism) -> list[str]:
+def not_compiled(mechanism: Mechanism) -> list[str]:
     """Name the terms that the loop does not simulate."""
     parts = (mechanism.others, mechanism.with_memory, mechanism.channel)
     names = [name for part in parts for name in part.names]

@@ -115,7 +115,7 @@ def _slides_on(weights, levels, held, after) -> bool:
 
 
 @njit(inline="always")
-def _kick(out, implicit, mass, scale, drives, offset, bias, levels, held, before, after, step) -> None:
+def kick(out, implicit, mass, scale, drives, offset, bias, levels, held, before, after, step) -> None:
     """Turn the drive's torque into the acceleration, and give the speeds after the step."""
     inertia, damping, weights = drives
     joints = len(implicit)
@@ -194,7 +194,7 @@ def _ask(out, implicit, law, state, ahead, inputs, k, step, back, sampled) -> No
 
 
 @njit(inline="always")
-def _tables(joints, links) -> tuple[np.ndarray, ...]:
+def tables_of(joints, links) -> tuple[np.ndarray, ...]:
     """Give the tables of one step, singly, so that the compiler knows that they are apart."""
     column = (joints, 1)
     return (
@@ -240,7 +240,7 @@ def play(  # pragma: no cover  (compiled)
     """
     joints, links, part = len(offset), len(robot[1]), step / substeps
     scratch, implicit = scratch_of(links, robot[7], 1), np.zeros(joints)
-    out, place, ahead, before, after, velocity, bodies, scale, mass, kept = _tables(joints, links)
+    out, place, ahead, before, after, velocity, bodies, scale, mass, kept = tables_of(joints, links)
     still = np.zeros((joints, 1))
     for k in range(len(inputs[0])):
         begin = fresh and k == 0
@@ -251,7 +251,7 @@ def play(  # pragma: no cover  (compiled)
             lane_place(robot, scratch, kept, place)
             lane_torque(robot, scratch, kept, ahead, still, bodies)
             lane_mass(robot, scratch, kept, mass, joints)
-            _kick(out, implicit, mass, scale, drives, offset, bodies, levels, held, before, after, part)
+            kick(out, implicit, mass, scale, drives, offset, bodies, levels, held, before, after, part)
             if _keep(state, implicit, before, after, out, velocity, part):
                 return k
         lane_torque(robot, scratch, kept, velocity, out, bodies)

@@ -9,7 +9,8 @@ from typing import Protocol, runtime_checkable
 
 from ...arrays import BaseParameters, Indices, JointVector, Parameters
 from ...regressor.factor import Factor, Weigh
-from ...regressor.memory import LaggedProducts
+from ...regressor.memory import Memory
+from ..innovations import Innovations
 from ..system import Criterion, System
 
 TORQUE, POSITION, WINDOWS = "torque", "position", "windows"
@@ -17,12 +18,8 @@ TORQUE, POSITION, WINDOWS = "torque", "position", "windows"
 
 
 @runtime_checkable
-class FitData(Protocol):
-    """Hold the equations of the fitted blocks, condensed."""
-
-    @property
-    def robust(self) -> bool:
-        """Tell whether rows that no model of this kind explains are weighted down."""
+class Equations(Protocol):
+    """Hold the equations of the fitted blocks, condensed: what precision and bootstrap are taken from."""
 
     @property
     def size(self) -> int:
@@ -41,19 +38,28 @@ class FitData(Protocol):
         """Give, per joint, the factors of all fitted blocks merged."""
 
     @property
-    def memory(self) -> tuple[LaggedProducts, ...]:
+    def memory(self) -> tuple[Memory, ...]:
         """Give, per joint, the lagged products of the fitted rows."""
 
     @property
     def reversal_weights(self) -> JointVector:
         """Give, per joint, the weight of its rows beside a reversal."""
 
-    def discounted(self) -> "FitData":
-        """Weigh the rows beside reversals by their own noise, unless that is not wanted."""
-
     @property
     def criterion(self) -> Criterion:
         """Say how the factors become equations."""
+
+
+@runtime_checkable
+class FitData(Equations, Protocol):
+    """Hold the equations as they were measured, and write others from the same logs."""
+
+    @property
+    def robust(self) -> bool:
+        """Tell whether rows that no model of this kind explains are weighted down."""
+
+    def discounted(self) -> "FitData":
+        """Weigh the rows beside reversals by their own noise, unless that is not wanted."""
 
     def weighted(self, weigh: Weigh) -> "FitData":
         """Pass over the motions again with every row weighted."""
@@ -76,14 +82,19 @@ class FitData(Protocol):
         `noise` is the RMS residual of every joint that these parameters leave, N m.
         """
 
+    def filtered(self, at: Parameters, *, unscented: bool) -> tuple[Equations, Innovations]:
+        """Take what a Kalman filter learns of the parameters that starts at these."""
+
 
 @dataclass(frozen=True, eq=False)
 class Step:
     """Hold equations whose optimum is the next estimate."""
 
     system: System
-    data: FitData
+    data: Equations
     """The data with rows weighted as in the equations: precision and bootstrap are taken from them."""
+    innovations: Innovations | None = None
+    """What a filter says of itself; None where nothing was filtered."""
 
 
 @runtime_checkable

@@ -27,8 +27,8 @@ class MaximumLikelihood(CompensatedLeastSquares):
     def equations(self, at: Parameters | None, data: FitData) -> Step:
         """Write the equations, which are the same at any robot."""
         step = super().equations(at, data)
-        plain, noise = step.data, step.system.noise
+        noise = step.system.noise
         for _ in range(ROUNDS):
-            own = plain.whitened(step.system.solved(), noise)
+            own = data.whitened(step.system.solved(), noise)
             step = Step(stacked(own.factors, own.columns_of, own.size, noise, own.criterion), own)
         return step

@@ -6,6 +6,7 @@ from .auto import Automatic
 from .didim import DirectInverse
 from .irls import IterativelyReweighted
 from .iv import InstrumentalVariables
+from .kalman import EXTENDED, UNSCENTED
 from .method import Estimator
 from .ml import MaximumLikelihood
 from .ols import OrdinaryLeastSquares
@@ -26,6 +27,8 @@ _LISTED: tuple[Estimator, ...] = (
     OPEN_LOOP_OUTPUT_ERROR,
     CompensatedLeastSquares(),
     MaximumLikelihood(),
+    EXTENDED,
+    UNSCENTED,
     Automatic(),
 )
 ESTIMATORS: Mapping[str, Estimator] = {estimator.name: estimator for estimator in _LISTED}
