@@ -90,7 +90,7 @@ class OverTime(Open):
     log: Annotated[list[int], about("number of the log at every instant, from 1")]
     time: Annotated[list[float], about("s")]
     value: Annotated[list[list[float]], about("per instant, in the order of the base parameters")]
-    standard_deviation: Annotated[list[list[float]], about("per instant, as the filter expects")]
+    standard_deviation: Annotated[list[list[float]], about("per instant, with what blocks scatter")]
 
 
 class Estimation(Open):

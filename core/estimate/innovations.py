@@ -1,6 +1,8 @@
 """Say what a Kalman filter assumed, how well it foresaw, and what it knew of the parameters over time."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from ..arrays import JointVector, Matrix, Samples
 
@@ -31,3 +33,7 @@ class Track:
     value: Matrix
     standard_deviation: Matrix
     """Instants x base parameters."""
+
+    def widened(self, dispersion: float) -> "Track":
+        """Give it with variances as much larger as blocks scatter more than the filter expects."""
+        return replace(self, standard_deviation=self.standard_deviation * np.sqrt(max(dispersion, 1.0)))

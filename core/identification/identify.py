@@ -107,8 +107,9 @@ def _fit(problem: Problem, options: IdentifyOptions, tell: Progress, observation
     method = asked.method
     apart = data.position_rms(found.standard) if method.iterative else None
     track = None
-    if isinstance(method, KalmanFilter) and asked.kalman.drift > 0.0:
-        track = data.tracked(found.standard, unscented=method.unscented)
+    if isinstance(method, KalmanFilter) and asked.kalman.drift > 0.0 and step.innovations is not None:
+        followed = data.tracked(found.standard, unscented=method.unscented)
+        track = followed.widened(step.innovations.dispersion)
     return Fit(problem, observation, step, found, convergence, apart, track, options)
 
 
