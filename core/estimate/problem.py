@@ -14,6 +14,7 @@ from ..regressor.columns import ColumnPlan
 from ..regressor.factor import Factor, Weigh
 from ..regressor.memory import LaggedProducts
 from ..regressor.observe import Observation, Tiled, observe
+from ..regressor.prewhitened import PrewhitenedPlan, predictors
 from ..regressor.whitened import WhitenedPlan
 from ..signals.condition import Motion
 from ..signals.filtered_noise import acceleration_variance
@@ -151,6 +152,21 @@ class ObservedProblem:
             problem.plan, problem.motions, held_out=problem.held_out, instruments=self._moved(at)
         )
         return replace(self, observation=beside, criterion=INSTRUMENTAL)
+
+    def prewhitened(self, at: Parameters) -> "ObservedProblem":
+        """Do the same, and take out of every row what the rows before it tell of its error.
+
+        A joint's rows beside reversals err otherwise, and are left out.
+        """
+        problem, weights = self.problem, 1.0 - self._drops_turning
+        base, moving = problem.base.base_of(at), replace(self, weights=weights)
+        known = tuple(
+            predictors(products.autocovariance(base[place]))
+            for products, place in zip(moving.memory, self.columns_of, strict=True)
+        )
+        plan = PrewhitenedPlan(problem.plan.model, problem.plan.columns, known, self._drops_turning)
+        beside = observe(plan, problem.motions, held_out=problem.held_out, instruments=self._moved(at))
+        return replace(moving, observation=beside, criterion=INSTRUMENTAL)
 
     def compensated(self) -> "ObservedProblem":
         """Take what noise of positions adds to the products of columns out of them.

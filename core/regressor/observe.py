@@ -211,7 +211,7 @@ def equations(plan: ColumnPlan, tile: Tile) -> Iterator[FilteredRows]:
 def _equations_of(plan: ColumnPlan, tile: Tile, other: Tile | None) -> Iterator[FilteredRows]:
     """Give the rows [w y] of a tile, or [z w y] with the columns of another one as instruments."""
     if other is None:
-        yield from plan.combined(tile, equations(plan, tile))
+        yield from equations(plan, tile)
         return
     pairs = zip(equations(plan, tile), equations(plan, other), strict=True)
     for (rows, usable), (instruments, _) in pairs:
@@ -248,7 +248,7 @@ class _Gathering:
             self._sample(tile, kept)
             block = self._blocks.setdefault(number, OpenBlock(self.groups, float(tile.time[kept.start])))
             block.end = float(tile.time[kept.stop - 1])
-        pairs = list(_equations_of(self.plan, tile, other))
+        pairs = list(self.plan.combined(tile, _equations_of(self.plan, tile, other)))
         weights = None if self.weigh is None else self.weigh(pairs)
         fitted = ~np.isin(tile.block, self.held_out)
         for joint, (rows, usable) in enumerate(pairs):

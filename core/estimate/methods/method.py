@@ -61,6 +61,9 @@ class FitData(Protocol):
     def instrumented(self, at: Parameters) -> "FitData":
         """Put those columns before the measured ones, as instruments."""
 
+    def prewhitened(self, at: Parameters) -> "FitData":
+        """Do the same, and take out of every row what the rows before it tell of its error."""
+
     def compensated(self) -> "FitData":
         """Take what noise of positions adds to the products of columns out of them."""
 

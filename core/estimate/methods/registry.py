@@ -8,6 +8,7 @@ from .iv import InstrumentalVariables
 from .method import Estimator
 from .ml import MaximumLikelihood
 from .ols import OrdinaryLeastSquares
+from .piv import PrewhitenedInstrumentalVariables
 from .sdp import SemidefiniteProgramme
 from .tls import CompensatedLeastSquares
 from .wls import WeightedLeastSquares
@@ -21,6 +22,7 @@ _LISTED: tuple[Estimator, ...] = (
     DirectInverse(),
     CompensatedLeastSquares(),
     MaximumLikelihood(),
+    PrewhitenedInstrumentalVariables(),
 )
 ESTIMATORS: Mapping[str, Estimator] = {estimator.name: estimator for estimator in _LISTED}
 """The estimators by name, the default first."""
