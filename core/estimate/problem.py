@@ -14,6 +14,7 @@ from ..regressor.columns import ColumnPlan
 from ..regressor.factor import Factor, Weigh
 from ..regressor.memory import LaggedProducts
 from ..regressor.observe import Observation, observe, torque_scales
+from ..regressor.prewhitened import PrewhitenedRows, predictors
 from ..regressor.rows import InstrumentedRows, RowSource
 from ..regressor.whitened import WhitenedRows
 from ..signals.condition import Motion
@@ -167,6 +168,21 @@ class ObservedProblem:
         changes = CHANGE * np.linalg.norm(measured.target) / np.where(sizes > 0.0, sizes, sizes.max())
         rows = self._simulator.differentiated(at, output, changes)
         return replace(self, observation=self.problem.observed(rows=rows))
+
+    def prewhitened(self, at: Parameters) -> "ObservedProblem":
+        """Do the same, and take out of every row what the rows before it tell of its error.
+
+        A joint's rows beside reversals err otherwise, and are left out.
+        """
+        problem, weights = self.problem, 1.0 - self._drops_turning
+        base, moving = problem.base.base_of(at), replace(self, weights=weights)
+        known = tuple(
+            predictors(products.autocovariance(base[place]))
+            for products, place in zip(moving.memory, self.columns_of, strict=True)
+        )
+        plain = InstrumentedRows(problem.plan, self._simulator.moved(at))
+        rows = PrewhitenedRows(plain, known, self._drops_turning)
+        return replace(moving, observation=problem.observed(rows=rows), criterion=INSTRUMENTAL)
 
     def compensated(self) -> "ObservedProblem":
         """Take what noise of positions adds to the products of columns out of them.

@@ -64,7 +64,7 @@ def _attenuated(found: Identification) -> list[str]:
     joints = ", ".join(f"joint {joint + 1} by about {100.0 * sizes[joint]:.2g} %" for joint in noisy)
     sentence = (
         f"Positions are too noisy for a band of {told.cutoff_hz:.3g} Hz: least squares is biased in the "
-        f"inertia of {joints}. Use estimator cloe, ml or iv, or a lower filter.cutoff_hz"
+        f"inertia of {joints}. Use estimator cloe, piv or ml, or a lower filter.cutoff_hz"
     )
     return [sentence]
 

@@ -70,6 +70,9 @@ class FitData(Equations, Protocol):
     def instrumented(self, at: Parameters) -> "FitData":
         """Put those columns before the measured ones, as instruments."""
 
+    def prewhitened(self, at: Parameters) -> "FitData":
+        """Do the same, and take out of every row what the rows before it tell of its error."""
+
     def differentiated(self, at: Parameters, output: str) -> "FitData":
         """Take the derivatives of a simulated output, and what the log shows beyond it."""
 

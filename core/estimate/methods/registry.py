@@ -11,6 +11,7 @@ from .method import Estimator
 from .ml import MaximumLikelihood
 from .ols import OrdinaryLeastSquares
 from .output_error import CLOSED_LOOP_INPUT_ERROR, CLOSED_LOOP_OUTPUT_ERROR, OPEN_LOOP_OUTPUT_ERROR
+from .piv import PrewhitenedInstrumentalVariables
 from .sdp import SemidefiniteProgramme
 from .tls import CompensatedLeastSquares
 from .wls import WeightedLeastSquares
@@ -27,6 +28,7 @@ _LISTED: tuple[Estimator, ...] = (
     OPEN_LOOP_OUTPUT_ERROR,
     CompensatedLeastSquares(),
     MaximumLikelihood(),
+    PrewhitenedInstrumentalVariables(),
     EXTENDED,
     UNSCENTED,
     Automatic(),

@@ -41,3 +41,15 @@ def test_instruments_remove_most_of_the_bias_of_noisy_columns_in_a_wide_band():
 def test_instruments_do_no_harm_where_the_columns_do_not_err():
     least, instrumental = (torque_error("planar-2", 1e-3, name) for name in ("sdp", "iv"))
     assert instrumental < 1.15 * least
+
+
+def test_prewhitened_instruments_remove_nearly_all_of_the_bias_of_a_wide_band():
+    wide = {"filter": {"cutoff_hz": 40.0}}
+    plain, white = (torque_error("planar-2", 1e-2, name, **wide) for name in ("iv", "piv"))
+    assert white < 0.2 * plain
+
+
+@pytest.mark.parametrize("robot", ["planar-2", "ur10e"])
+def test_prewhitened_instruments_do_no_harm_where_columns_hardly_err(robot):
+    plain, white = (torque_error(robot, 1e-3, name) for name in ("iv", "piv"))
+    assert white < 1.1 * plain
