@@ -27,12 +27,15 @@ from .gaussian_prior import GaussianPrior
 from .innovations import Innovations, Track
 from .methods.method import Equations
 from .options import CONTROLLER, KalmanOptions, SimulationOptions
-from .reversals import ROWS_PER_PARAMETER, reversal_weights
+from .reversals import reversal_weights
 from .simulator import Simulator
 from .system import INSTRUMENTAL, LEAST_SQUARES, Criterion, ordinary, weighted
 
 CHANGE = 1e-4
 """Change of a parameter by which simulations are differentiated: the torque it takes over that of all."""
+MOSTLY_TURNING = 0.6
+"""Share of a joint's rows beside reversals above which they cannot be left out: a pendulum that swings freely
+has two thirds, and a noisy arm up to half."""
 LEAST_TORQUE_NOISE = 0.01
 """Share of a residual's power that noise of the torque has at least."""
 
@@ -200,8 +203,8 @@ class ObservedProblem:
     @property
     def _drops_turning(self) -> JointMarks:
         """Mark the joints that have enough rows without those beside reversals."""
-        rows = np.array([factor.rows for factor in self._groups[0]])
-        return np.asarray(rows >= ROWS_PER_PARAMETER * np.array(list(map(len, self.columns_of))))
+        moving, turning = (np.array([factor.rows for factor in group]) for group in self._groups)
+        return np.asarray(turning <= MOSTLY_TURNING * (moving + turning))
 
     def whitened(self, base: BaseParameters, noise: JointVector) -> "ObservedProblem":
         """Combine the joints' rows by the covariance that noise of positions gives them; compensate too."""

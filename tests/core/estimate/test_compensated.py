@@ -71,6 +71,15 @@ def test_without_noise_of_positions_the_joint_rows_of_an_instant_are_not_combine
     np.testing.assert_allclose(likely, least, rtol=1e-9)
 
 
+def test_rows_beside_reversals_are_left_out_unless_most_rows_are_such(data):
+    swapped = tuple(
+        replace(block, moving=block.turning, turning=block.moving) for block in data.observation.blocks
+    )
+    mostly = replace(data, observation=replace(data.observation, blocks=swapped))
+    np.testing.assert_array_equal(data.compensated().reversal_weights, 0.0)
+    assert mostly.compensated().reversal_weights[0] == 1.0
+
+
 def rows(seed: int, error: float) -> np.ndarray:
     """Draw rows [w y] whose columns err."""
     rng = np.random.default_rng(seed)
