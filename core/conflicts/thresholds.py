@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..numerics.likelihood import UNDECIDED
+
 
 @dataclass(frozen=True)
 class Doubt:
@@ -39,7 +41,7 @@ class Trial:
 class Decision:
     """Compare two set-ups by their errors on rows that neither was fitted to."""
 
-    undecided: float = 6.0
+    undecided: float = UNDECIDED
     """Difference of twice the log-likelihood below which neither of two is preferred. Source: Burnham &
     Anderson, Model Selection (2002), ch. 2."""
     equal: float = 1.0

@@ -2,12 +2,14 @@
 
 from dataclasses import dataclass
 
+from ...numerics.likelihood import UNDECIDED
+
 
 @dataclass(frozen=True)
 class Selection:
     """Compare two hypotheses by their criteria, twice the log-likelihood less the penalty."""
 
-    undecided: float = 6.0
+    undecided: float = UNDECIDED
     """Difference of twice the log-likelihood (less the penalty) below which neither hypothesis is preferred.
     It decides whether an alternative is distinguished, a swap or a restart is better, and a round of joint
     refinement gains anything. Source: Burnham & Anderson, Model Selection (2002), ch. 2."""
