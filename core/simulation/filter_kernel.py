@@ -3,10 +3,10 @@
 The state is (chi, q, v): parameters that do not move by themselves, positions at a sample, and velocities
 half a step before it. Its covariance S S' is held by the triangle S alone, parameters first, so that the
 factor of the parameters' own covariance stands in its corner. The scheme moves the state along every column
-of S: small differences to one side make the extended filter; those to both sides, as wide as the deviations,
-the unscented one, whose covariance in terms of first and second differences needs no downdate. Positions are
-taken in one by one. Sources: van der Merwe & Wan, ICASSP 2001 (square-root form); Norgaard, Poulsen & Ravn,
-Automatica 36, 2000 (differences).
+of S: differences to one side make the extended filter, those to both sides the unscented one, whose
+covariance in terms of first and second differences needs no downdate. Positions are taken in one by one.
+Sources: van der Merwe & Wan, ICASSP 2001 (square-root form); Norgaard, Poulsen & Ravn, Automatica 36, 2000
+(differences).
 """
 
 # ruff: noqa: ANN001, PLR0913, PLR0917  # numba: types stand in signatures, tables come singly

@@ -16,8 +16,9 @@ from . import filter_kernel as kernel
 from .loop import not_compiled
 from .mechanism import Mechanism, mechanism_of
 
-ONE_SIDED = 1e-3
-"""Length of the extended filter's differences, in deviations."""
+ONE_SIDED = 0.3
+"""Length of the extended filter's differences, in deviations. Smaller ones do not see that a joint may slide
+which rests by the mean: on a simulated arm of six joints 1e-3 errs twice as much, and 1 as much as 0.3."""
 ALPHA, BETA = 0.3, 2.0
 """Spread of the sigma points, and the weight of their centre that suits normal deviations. Source: van der
 Merwe & Wan 2001."""

@@ -55,13 +55,13 @@ def test_without_noise_of_the_torque_a_linear_plant_is_fitted_as_by_least_square
     state = own.started(mean, factor, np.array([SPEED]))
     nothing = np.zeros((len(torque), 1))
     _, state = own.run(state, measured[:, None], torque[:, None], nothing)
-    covariance = np.linalg.inv(system.T @ system)
+    covariance = np.linalg.solve(system.T @ system, np.eye(3))
     assert abs(state.mean[place] - batch[0]) < 1e-6
     np.testing.assert_allclose(np.linalg.norm(state.factor[:, place]), np.sqrt(covariance[0, 0]), rtol=1e-6)
     assert abs(state.mean[-2] - table[-1] @ np.append(batch, 1.0)) < 1e-8
 
 
-def swinging(unscented: bool) -> tuple[StateFilter, FilterState, tuple[np.ndarray, ...]]:
+def swinging(*, unscented: bool) -> tuple[StateFilter, FilterState, tuple[np.ndarray, ...]]:
     """Give a filter of two links with its start, and a second of motion and torque."""
     model = standard_model(planar_robot())
     truth, state = true_parameters(model), swing(2, rate_hz=1000.0, seconds=1.0)
@@ -75,7 +75,7 @@ def swinging(unscented: bool) -> tuple[StateFilter, FilterState, tuple[np.ndarra
 
 @BOTH
 def test_pieces_are_filtered_as_the_whole(unscented):
-    own, begun, samples = swinging(unscented)
+    own, begun, samples = swinging(unscented=unscented)
     missed, whole = own.run(begun, *samples)
     parts, state = [], begun
     for piece in (slice(0, 1), slice(1, 400), slice(400, None)):
@@ -88,7 +88,7 @@ def test_pieces_are_filtered_as_the_whole(unscented):
 
 @BOTH
 def test_the_factor_stays_triangular_and_what_is_known_of_parameters_only_grows(unscented):
-    own, state, samples = swinging(unscented)
+    own, state, samples = swinging(unscented=unscented)
     size = len(own.reference)
     for begin in range(0, 1000, 200):
         before = state.factor[:size, :size].T @ state.factor[:size, :size]

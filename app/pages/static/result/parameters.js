@@ -3,6 +3,7 @@ import { follow } from "../base/api.js";
 import { element, fill, svg } from "../base/dom.js";
 import { wide } from "../drawing/wide.js";
 import { number, relative } from "../base/words.js";
+import { overTime } from "./over_time.js";
 
 const POOR_PERCENT = 30;
 const COLUMNS = [
@@ -37,7 +38,8 @@ export function showParameters(container, { job, document }) {
         follow(element("a", { class: "button tiny", href: job.links.parameters_csv, download: "parameters.csv" }, "CSV file")))),
     wide(element("table", { class: "parameters" },
         element("caption", {}, "Physically consistent estimate and ordinary least squares (without the consistency constraint). %P: standard deviation in percent of the value. Error bars are relative to the value."),
-        element("thead", {}, element("tr", {}, heads)), body), "Base parameters"));
+        element("thead", {}, element("tr", {}, heads)), body), "Base parameters"),
+    overTime(document));
   write();
 
   function sort(column) {
