@@ -39,11 +39,7 @@ class BlockScores:
         return np.zeros((1, *self.information.shape))
 
     def autocovariance(self, parameters: Parameters) -> Vector:
-        """Sum the squares of the blocks' scores over their information, per parameter.
-
-        Blocks that agree better than their rows claim are chance, or share an error: the sum is their number
-        at least.
-        """
+        """Sum the squares of the blocks' scores over their information, per parameter."""
         parts = [(block.columns(REGRESSOR), block.columns(TARGET)[:, 0]) for block in self.blocks]
         scores = np.array([columns.T @ (target - columns @ parameters) for columns, target in parts])
         information = self.information
@@ -52,7 +48,7 @@ class BlockScores:
         values, vectors = np.linalg.eigh(information / np.outer(scale, scale))
         excited = values > _RANK_TOLERANCE**2 * values[-1]
         white = (scores / scale) @ vectors[:, excited] / np.sqrt(values[excited])
-        return np.array([max(len(self.blocks) * float(np.sum(white**2)) / white.shape[1], self.rows)])
+        return np.array([len(self.blocks) * float(np.sum(white**2)) / white.shape[1]])
 
     def spread(self, autocovariance: Vector) -> Matrix:
         """Give the covariance of the sum of all scores."""
