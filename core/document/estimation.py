@@ -105,9 +105,9 @@ def _attenuated(shares: JointVector) -> Iterator[str]:
 
 def _foreseen(told: Innovations) -> str:
     """Say how well a filter foresaw the positions."""
-    low, high = float(told.variance.min()), float(told.variance.max())
+    sizes = sorted({f"{float(size):.2g}" for size in (told.variance.min(), told.variance.max())}, key=float)
     return (
-        f"What it did not foresee of the positions has {low:.2g} to {high:.2g} times the variance that it "
+        f"What it did not foresee of the positions has {' to '.join(sizes)} times the variance that it "
         f"expected. Its blocks scatter {told.dispersion:.2g} times as much (variance), which the deviations "
         "of the parameters contain."
     )
