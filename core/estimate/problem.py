@@ -173,7 +173,7 @@ class ObservedProblem:
         return replace(self, observation=self.problem.observed(rows=rows))
 
     def prewhitened(self, at: Parameters) -> "ObservedProblem":
-        """Do the same, and take out of every row what the rows before it tell of its error.
+        """Put simulated columns first, and take out of every row what those before it tell of its error.
 
         A joint's rows beside reversals err otherwise, and are left out.
         """

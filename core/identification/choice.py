@@ -20,7 +20,7 @@ from ..simulation.multistep import compare
 
 USUAL, SPARED = "sdp", "cloe"
 """The estimator for usual noise, and the one for more. On simulated arms with encoders of 0.1 degrees the
-second one's torque errs by a third to a sixth of what the first one's does."""
+second one's torque errs by about a third of what the first one's does."""
 BIASED = 0.01
 """Share of an inertia that noise may take from it. On simulated arms least squares errs about four times as
 much as instrumental variables from there on."""

@@ -71,7 +71,7 @@ class FitData(Equations, Protocol):
         """Put those columns before the measured ones, as instruments."""
 
     def prewhitened(self, at: Parameters) -> "FitData":
-        """Do the same, and take out of every row what the rows before it tell of its error."""
+        """Put simulated columns first, and take out of every row what those before it tell of its error."""
 
     def differentiated(self, at: Parameters, output: str) -> "FitData":
         """Take the derivatives of a simulated output, and what the log shows beyond it."""
