@@ -17,11 +17,11 @@ from benchmarks.scene import smooth_motion, yumi_arm
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.robot.inertia import mass_properties
 from veritorque.core.signals.state import MotionState
-from veritorque.core.simulation.control_law import ControlLaw, Inputs
+from veritorque.core.simulation.closed_loop.loop import Loop
+from veritorque.core.simulation.closed_loop.replay import default_gains
+from veritorque.core.simulation.control.control_law import ControlLaw, Inputs
 from veritorque.core.simulation.drive import Drive
-from veritorque.core.simulation.loop import Loop
 from veritorque.core.simulation.mechanism import Mechanism, mechanism_of
-from veritorque.core.simulation.replay import default_gains
 from veritorque.core.simulation.rollout import rollout
 from veritorque.core.simulation.stage import States
 

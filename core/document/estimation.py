@@ -5,13 +5,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..arrays import JointVector
-from ..estimate.innovations import Innovations, Track
+from ..estimate.kalman.innovations import Innovations, Track
 from ..estimate.methods.registry import ESTIMATORS
 from ..identification.choice import BIASED
 from ..identification.doubts import LEAST_SQUARES
 from ..identification.result import Identification
 from ..precision.endogeneity import SIGNIFICANCE, Endogeneity
-from ..simulation.controller_check import ControllerCheck
+from ..simulation.control.controller_check import ControllerCheck
 
 
 def estimation_fields(found: Identification) -> dict[str, object]:

@@ -19,12 +19,12 @@ from ..regressor.rows import InstrumentedRows, RowSource
 from ..regressor.whitened import WhitenedRows
 from ..signals.condition import Motion
 from ..signals.filtered_noise import acceleration_variance
-from ..simulation.controller_check import ControllerCheck
-from ..simulation.own_controller import controller_of
+from ..simulation.control.controller_check import ControllerCheck
+from ..simulation.control.own_controller import controller_of
 from .compensation import Compensated
-from .filter_start import FilterStart
 from .gaussian_prior import GaussianPrior
-from .innovations import Innovations, Track
+from .kalman.filter_start import FilterStart
+from .kalman.innovations import Innovations, Track
 from .methods.method import Equations
 from .options import CONTROLLER, KalmanOptions, SimulationOptions
 from .reversals import reversal_weights
@@ -228,8 +228,8 @@ class ObservedProblem:
 
     def filtered(self, at: Parameters, *, unscented: bool) -> tuple[Equations, Innovations]:
         """Take what a Kalman filter learns of the parameters that starts at these."""
-        from .filtering import follow  # compiled for some ten seconds, hence only for who filters
-        from .followed import FollowedProblem
+        from .kalman.filtering import follow  # compiled for some ten seconds, hence only for who filters
+        from .kalman.followed import FollowedProblem
 
         start, problem = self._filter_start(at, unscented=unscented), self.problem
         own = FollowedProblem(follow(start, problem.motions, problem.held_out))
@@ -237,7 +237,7 @@ class ObservedProblem:
 
     def tracked(self, at: Parameters, *, unscented: bool) -> Track:
         """Follow parameters over time that drift by the share of their values that was asked for."""
-        from .filtering import follow  # compiled, too
+        from .kalman.filtering import follow  # compiled, too
 
         start, problem = self._filter_start(at, unscented=unscented), self.problem
         return follow(

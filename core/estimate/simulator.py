@@ -12,13 +12,13 @@ from ..arrays import BaseParameters, JointSeries, Parameters
 from ..reduction.base import BaseModel
 from ..regressor.rows import RowSource
 from ..signals.condition import Motion
-from ..simulation.controller_check import ControllerCheck
+from ..simulation.control.controller_check import ControllerCheck
 from ..simulation.mechanism import Mechanism, mechanism_of
 from .methods.method import TORQUE, WINDOWS
 from .options import CONTROLLER, SimulationOptions
 
 if TYPE_CHECKING:
-    from ..simulation.simulated import SimulatedMotion, Source
+    from ..simulation.closed_loop.simulated import SimulatedMotion, Source
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +35,7 @@ class Simulator:
 
     def moved(self, at: Parameters) -> tuple["SimulatedMotion", ...]:
         """Give the motions of a robot of these standard parameters."""
-        from ..simulation.simulated import SimulatedMotion
+        from ..simulation.closed_loop.simulated import SimulatedMotion
 
         mechanism = mechanism_of(self.base.model, at)
         pairs = zip(self.motions, self._sources(mechanism), strict=True)
@@ -43,8 +43,8 @@ class Simulator:
         return tuple(SimulatedMotion(motion, mechanism, source, substeps) for motion, source in pairs)
 
     def _sources(self, mechanism: Mechanism) -> "list[Source]":
-        from ..simulation.controlled import Controlled
-        from ..simulation.replay import Replay, default_gains
+        from ..simulation.closed_loop.controlled import Controlled
+        from ..simulation.closed_loop.replay import Replay, default_gains
 
         if self.options.source == CONTROLLER:
             return [Controlled(check.model) for check in self.controllers]
@@ -59,8 +59,8 @@ class Simulator:
         changes
             By how much each base parameter is changed.
         """
-        from ..simulation.free_windows import FreeWindows
-        from ..simulation.sensitivities import Sensitivities
+        from ..simulation.closed_loop.free_windows import FreeWindows
+        from ..simulation.closed_loop.sensitivities import Sensitivities
 
         pairs = zip(self.base.kept, changes, strict=True)
         robots = [at, *(at + change * np.eye(len(at))[kept] for kept, change in pairs)]

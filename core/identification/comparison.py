@@ -138,9 +138,9 @@ def fit_by(name: str, options: Mapping[str, object], begun: Identification) -> C
 def _compile_for(method: Estimator) -> None:
     """Import what an estimator compiles, so that its time is that of a fit."""
     if isinstance(method, KalmanFilter):
-        from ..estimate import filtering  # noqa: F401  (imported for what it compiles)
+        from ..estimate.kalman import filtering  # noqa: F401  (imported for what it compiles)
     elif method.iterative:
-        from ..simulation import simulated  # noqa: F401  (imported for what it compiles)
+        from ..simulation.closed_loop import simulated  # noqa: F401  (imported for what it compiles)
 
 
 def _motion(found: Identification) -> tuple[MultiStep | None, str]:

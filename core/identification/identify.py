@@ -7,7 +7,7 @@ from ..arrays import BaseParameters, JointVector
 from ..estimate.constraints import default_prior
 from ..estimate.estimate import Estimate, estimate
 from ..estimate.feasibility import active_constraints, feasibility
-from ..estimate.innovations import Track
+from ..estimate.kalman.innovations import Track
 from ..estimate.methods.auto import AUTO
 from ..estimate.methods.kalman import KalmanFilter
 from ..estimate.methods.method import Step

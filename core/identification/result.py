@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from ..arrays import BlockKey, JointVector, Matrix
 from ..estimate.estimate import Estimate
 from ..estimate.feasibility import Feasibility
-from ..estimate.innovations import Innovations, Track
+from ..estimate.kalman.innovations import Innovations, Track
 from ..estimate.options import SimulationOptions
 from ..log.model import JointLog
 from ..precision.attenuation import Attenuation
@@ -16,7 +16,7 @@ from ..reduction.base import BaseModel
 from ..regressor.observe import Observation
 from ..robot.extent import Extent
 from ..signals.condition import Motion
-from ..simulation.controller_check import ControllerCheck
+from ..simulation.control.controller_check import ControllerCheck
 from ..validation.excitation import ExcitationScore
 from ..validation.mass_matrix import MassMatrixCheck
 from ..validation.scores import JointScore

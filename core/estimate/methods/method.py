@@ -10,7 +10,7 @@ from typing import Protocol, runtime_checkable
 from ...arrays import BaseParameters, Indices, JointVector, Parameters
 from ...regressor.factor import Factor, Weigh
 from ...regressor.memory import Memory
-from ..innovations import Innovations
+from ..kalman.innovations import Innovations
 from ..system import Criterion, System
 
 TORQUE, POSITION, WINDOWS = "torque", "position", "windows"

@@ -1,0 +1,1 @@
+"""Simulate a controlled robot along a log, compiled, and differentiate what it does."""

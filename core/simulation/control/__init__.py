@@ -1,0 +1,1 @@
+"""Recognise a robot's own controller in a log, and hold it as the simulation takes it."""

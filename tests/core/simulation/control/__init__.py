@@ -1,0 +1,1 @@
+"""Recognise controllers in logs of machines whose controllers are known."""

@@ -1,0 +1,1 @@
+"""Hold a Kalman filter to what it expects of itself, and to batch least squares."""
