@@ -3,7 +3,7 @@
 The simulation is compiled for some ten seconds, hence imported only where it is used.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -67,6 +67,8 @@ class Simulator:
         mechanisms = [mechanism_of(self.base.model, robot) for robot in robots]
         base = self.base.base_of(at)
         if output == WINDOWS:
-            return FreeWindows(base, changes, mechanisms, self.options.window_seconds, self.options.substeps)
-        runs = [[replace(own, mechanism=one) for one in mechanisms] for own in self.moved(at)]
+            seconds, substeps = self.options.window_seconds, self.options.substeps
+            silent = [motion.segments[0].unmeasured for motion in self.motions]
+            return FreeWindows(base, changes, mechanisms, seconds, silent, substeps)
+        runs = [[own.of(one) for one in mechanisms] for own in self.moved(at)]
         return Sensitivities(base, changes, runs, of_torque=output == TORQUE)

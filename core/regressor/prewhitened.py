@@ -62,9 +62,18 @@ def predictors(autocovariance: Vector) -> SquareMatrix:
     >>> predictors(np.array([2.0, 0.0]))
     array([[ 1.,  0.],
            [-0.,  1.]])
+
+    Where there are none, such as on a joint that has no rows, there is nothing to predict:
+
+    >>> predictors(np.zeros(2))
+    array([[1., 0.],
+           [1., 0.]])
     """
     order = len(autocovariance) - 1
     weights = np.zeros((order + 1, order + 1))
+    if not autocovariance[0] > 0.0:
+        weights[:, 0] = 1.0
+        return weights
     variance = autocovariance[0] * (1.0 + _RIDGE)
     for known in range(order + 1):
         past = autocovariance[1 : known + 1]

@@ -12,6 +12,7 @@ from ...arrays import JointSeries
 from ...signals.resample import linear
 from ..control.control_law import ControlLaw, Inputs
 from ..control.controller import LONGEST_DELAY, ControllerModel
+from ..mechanism import Mechanism
 from .simulated import Piece
 
 _REFERENCES = ("position_ref", "velocity_ref", "torque_ref")
@@ -28,6 +29,10 @@ class Controlled:
     def law(self, step: float) -> ControlLaw:
         """Give the controller, which acts at the samples."""
         return self.controller.law(step)
+
+    def of(self, mechanism: Mechanism) -> "Controlled":  # noqa: ARG002  (references alone drive it)
+        """Give itself."""
+        return self
 
     def inputs(self, piece: Piece) -> Inputs:
         """Give the references, late as the controller gets them."""

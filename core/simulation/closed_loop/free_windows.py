@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ...arrays import BaseParameters, Indices, InstantMask, JointSeries, Matrix, Vector
+from ...arrays import BaseParameters, Indices, InstantMask, JointMarks, JointSeries, Matrix, Vector
 from ...regressor.factor import REGRESSOR, TARGET, FilteredRows, Groups
 from ...regressor.rows import Tiled
 from ...signals.parallel import Tile
@@ -43,6 +43,9 @@ class FreeWindows:
     """The robot as it is, and with every base parameter changed."""
     seconds: float
     """Length of a window, s."""
+    unmeasured: Sequence[JointMarks]
+    """Per motion, the joints whose torque was not measured: each robot's own along the measured motion drives
+    it."""
     substeps: int | None = None
     """Steps of the simulation per sample; None for steps of `LONGEST_STEP` at most."""
 
@@ -56,24 +59,28 @@ class FreeWindows:
         """Give, per joint, what the columns of its rows are."""
         return (((REGRESSOR, len(self.base)), (TARGET, 1)),) * len(self.columns_of)
 
-    def rows(self, number: int, motion: Tiled) -> Iterator[tuple[Tile, list[FilteredRows]]]:  # noqa: ARG002  (all are alike)
+    def rows(self, number: int, motion: Tiled) -> Iterator[tuple[Tile, list[FilteredRows]]]:
         """Go through a motion tile by tile, and through each window by window."""
+        silent = self.unmeasured[number]
         for tile in motion.tiles():
             time = np.asarray(tile.state.time)
             step = float(time[-1] - time[0]) / (len(time) - 1)
             length = max(FEWEST_INSTANTS, round(self.seconds / (tile.parallel.decimation * step)))
             begins = range(0, len(tile.time), length)
-            table = np.concatenate([self._window(tile, step, slice(at, at + length)) for at in begins])
+            table = np.concatenate(
+                [self._window(tile, silent, step, slice(at, at + length)) for at in begins]
+            )
             yield tile, [(table[:, joint], tile.usable[:, joint]) for joint in range(table.shape[1])]
 
-    def _window(self, tile: Tile, step: float, chosen: slice) -> np.ndarray:
+    def _window(self, tile: Tile, silent: JointMarks, step: float, chosen: slice) -> np.ndarray:
         """Give a window's rows: instants x joints x columns."""
         at = tile.first + tile.parallel.decimation * np.arange(len(tile.time))[chosen]
         whole, kept = slice(at[0], at[-1] + 1), at - at[0]
         state, torque = tile.state.at(whole), tile.torque[whole]
 
         def moved(mechanism: Mechanism, start: MotionState) -> JointSeries:
-            return np.asarray(self._moved(mechanism, step, start, torque)[kept])
+            driving = np.where(silent, mechanism.torque(state), torque) if silent.any() else torque
+            return np.asarray(self._moved(mechanism, step, start, driving)[kept])
 
         own, *changed = (moved(mechanism, state) for mechanism in self.mechanisms)
         pushed = [moved(self.mechanisms[0], start) for start in _pushed(state)]

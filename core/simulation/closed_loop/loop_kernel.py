@@ -40,15 +40,21 @@ STATE_ROWS = 11
 
 
 @njit(inline="always")
-def _drive(out, implicit, law, state, forward, place, rate, k, back) -> None:
-    """Write the torque of a joint controller that acts at every step; inputs are linear between samples.
+def _drive(out, implicit, law, state, forward, place, rate, k, step, back) -> None:
+    """Write the torque of a joint controller that acts at every step.
 
-    `back` is the share of a sample to go to the sample `k`. The damping comes apart, to be taken implicitly.
+    Between samples the torque is linear, and the way is the cubic that has the positions and speeds of both:
+    on a chord a stiff controller would pull every curve towards its inner side. `back` is the share of a
+    sample to go to the sample `k`. The damping comes apart, to be taken implicitly.
     """
+    on = 1.0 - back
     for j in range(len(implicit)):
         feed = forward[k, j] - back * (forward[k, j] - state[FORWARD, j])
-        wanted = place[k, j] - back * (place[k, j] - state[PLACE, j])
-        speed = rate[k, j] - back * (rate[k, j] - state[RATE, j])
+        way = place[k, j] - state[PLACE, j]
+        bends = step * state[RATE, j] - way, step * rate[k, j] - way
+        wanted = state[PLACE, j] + on * way + on * back * (back * bends[0] - on * bends[1])
+        turn = (back - 2.0 * on) * back * bends[0] + (on - 2.0 * back) * on * bends[1]
+        speed = (way + turn) / step
         implicit[j] = law[DERIVATIVE, j]
         error = wanted - state[POSITION, j]
         out[j, 0] = feed + law[PROPORTIONAL, j] * error + law[DERIVATIVE, j] * speed
@@ -180,7 +186,7 @@ def _keep(state, implicit, before, after, rate, velocity, step) -> bool:
 def _ask(out, implicit, law, state, ahead, inputs, k, step, back, sampled) -> None:
     """Write the torque of the controller: at every step, or where a sample is reached (`back` is 0)."""
     if not sampled:
-        _drive(out, implicit, law, state, inputs[0], inputs[1], inputs[2], k, back)
+        _drive(out, implicit, law, state, inputs[0], inputs[1], inputs[2], k, step, back)
     elif back == 0.0:
         _command(out, implicit, law, state, ahead, inputs[0], inputs[1], inputs[2], k, step)
     for j in range(len(implicit)):

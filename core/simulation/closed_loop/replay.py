@@ -4,7 +4,7 @@ What the controller adds is what the model lacks, so no controller of the real r
 motion that comes out holds little of the measured motion's noise, which the controller damps.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -27,6 +27,10 @@ class Replay:
     def law(self, step: float) -> ControlLaw:  # noqa: ARG002  (acts at every step of the integration)
         """Pull every joint to the measured motion."""
         return ControlLaw.of_joints(self.gains)
+
+    def of(self, mechanism: Mechanism) -> "Replay":
+        """Give the same gains with the torque of another robot where none was measured."""
+        return replace(self, mechanism=mechanism)
 
     def inputs(self, piece: Piece) -> Inputs:
         """Give the measured torque and motion."""

@@ -42,6 +42,9 @@ class Source(Protocol):
     def law(self, step: float) -> ControlLaw:
         """Give the controller at samples that are so far apart, s."""
 
+    def of(self, mechanism: Mechanism) -> "Source":
+        """Give the source that drives another robot."""
+
     def inputs(self, piece: Piece) -> Inputs:
         """Give what the controller is given at the samples of a piece."""
 
@@ -74,6 +77,10 @@ class SimulatedMotion:
         measured, followed = tee(self.motion.tiles())
         for tile, played in zip(measured, self.along(followed), strict=True):
             yield replace(tile, state=replace(played.state, temperature=tile.state.temperature))
+
+    def of(self, mechanism: Mechanism) -> "SimulatedMotion":
+        """Give the motion of another robot, driven by the same source."""
+        return replace(self, mechanism=mechanism, source=self.source.of(mechanism))
 
     def along(self, tiles: Iterable[Tile]) -> Iterator[Played]:
         """Simulate what the tiles of the motion see, one after another."""

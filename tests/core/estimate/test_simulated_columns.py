@@ -4,6 +4,10 @@ import numpy as np
 import pytest
 
 from tests.core.estimate.sticking_arm import QUIET, scene
+from tests.core.estimate.worlds import planar_robot, swing, true_parameters
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.study import IdentifyRequest, identify_in_full
 
 
 def torque_error(robot: str, encoder_deg: float, estimator: str, draws: int = 1, **options: object) -> float:
@@ -53,3 +57,14 @@ def test_prewhitened_instruments_remove_nearly_all_of_the_bias_of_a_wide_band():
 def test_prewhitened_instruments_do_no_harm_where_columns_hardly_err(robot):
     plain, white = (torque_error(robot, 1e-3, name) for name in ("iv", "piv"))
     assert white < 1.1 * plain
+
+
+@pytest.mark.parametrize("estimator", ["didim", "clie", "cloe"])
+def test_a_replay_at_a_low_rate_is_not_pulled_to_the_inner_side_of_curves(estimator):
+    model = standard_model(planar_robot())
+    state = swing(2, seconds=10.0, rate_hz=50.0)
+    torque = model.torque(true_parameters(model), state)
+    log = log_from_arrays("slow", np.arange(len(torque)) / 50.0, state.position, torque)
+    asked = {"estimator": estimator, "bootstrap": {"draws": 0}}
+    found = identify_in_full(IdentifyRequest(model.robot, (log,), asked))
+    assert found.validation_total_percent < 0.8

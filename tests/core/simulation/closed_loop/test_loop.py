@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pinocchio as pin
 import pytest
+from scipy.interpolate import CubicHermiteSpline
 
 from tests.core.simulation.worlds import block, mechanism, pendulum, slope
 from tests.plant.robots import draw_arm
@@ -24,6 +25,8 @@ from veritorque.core.simulation.stage import States, accelerations
 
 STEP = 2e-3
 ROWS = 1500
+FINE = 16
+"""Steps of a fine rollout per sample."""
 WORLDS = ("staubli-tx40", "planar-3", "slide")
 
 
@@ -141,18 +144,22 @@ def errors_against_rollout(machine: Mechanism, refinements: tuple[int, ...]) -> 
     """Give the RMS distance of positions to a fine rollout under the same inputs, per number of substeps."""
     motion = wanted(machine.joints, samples=300)
     loop, _, inputs = followed(machine, motion)
+    time = np.arange(len(motion.position))
+    often = np.linspace(0.0, time[-1], FINE * time[-1] + 1)
+    way = CubicHermiteSpline(time, inputs.position, STEP * inputs.velocity)
+    feed = np.column_stack([np.interp(often, time, series) for series in inputs.feed_forward.T])
     back = Feedback(
-        loop.law.table[0], loop.law.table[1], inputs.position[:, :, None], inputs.velocity[:, :, None]
+        loop.law.table[0], loop.law.table[1], way(often)[:, :, None], way(often, 1)[:, :, None] / STEP
     )
     first = motion.at(slice(0, 1))
-    drive = Drive(STEP, inputs.feed_forward[:, :, None], back)
-    true = rollout(machine, States.starting(machine, first), drive, longest_step=STEP / 16)
+    drive = Drive(STEP / FINE, feed[:, :, None], back)
+    true = rollout(machine, States.starting(machine, first), drive, longest_step=STEP / FINE)
     began = accelerations(machine, first, true.torque[:1, :, 0])
     found = []
     for substeps in refinements:
         fine = replace(loop, substeps=substeps)
         played, _ = fine.run(fine.start(replace(first, acceleration=began)), inputs)
-        found.append(np.sqrt(np.mean((played.state.position - true.position[:, :, 0]) ** 2)))
+        found.append(np.sqrt(np.mean((played.state.position - true.position[::FINE, :, 0]) ** 2)))
     return np.array(found)
 
 

@@ -80,7 +80,9 @@ def test_what_a_window_starts_from_does_not_count(arm, motion):
     base = base_model(machine.model)
     changes = np.full(len(base.kept), CHANGE)
     robots = [machine, *changed(machine, base, changes)]
-    windows = FreeWindows(base.base_of(machine.parameters), changes, robots, seconds=0.3)
+    windows = FreeWindows(
+        base.base_of(machine.parameters), changes, robots, seconds=0.3, unmeasured=[np.zeros(3, dtype=bool)]
+    )
     tile = next(iter(motion.tiles()))
 
     class Once:
@@ -98,3 +100,20 @@ def test_what_a_window_starts_from_does_not_count(arm, motion):
     )
     # For 0.3 s at 1e-3 rad/s a joint drifts by 3e-4 rad.
     assert np.abs(pushed - plain).max() < 3e-6
+
+
+def test_what_drives_a_joint_of_unmeasured_torque_itself_hardly_moves_it(arm, motion):
+    machine = mechanism(*arm, FV=0.3)
+    base = base_model(machine.model)
+    changes = np.full(len(base.kept), CHANGE)
+    robots = [machine, *changed(machine, base, changes)]
+    friction = [machine.model.parameters[column].name for column in base.kept].index("FV2")
+
+    def shown(silent):
+        marks = [np.arange(3) == silent]
+        windows = FreeWindows(
+            base.base_of(machine.parameters), changes, robots, seconds=0.3, unmeasured=marks
+        )
+        return np.linalg.norm(stacked(windows, motion)[:, friction])
+
+    assert shown(1) < 0.1 * shown(None)
