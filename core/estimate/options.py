@@ -15,6 +15,8 @@ from .methods.registry import ESTIMATORS
 REPLAY, CONTROLLER = "replay", "controller"
 SOURCES = (REPLAY, CONTROLLER)
 SOLVERS = ("clarabel", "cvxpy")
+_OF_LEAST_SQUARES = {"bounds", "entropy", "robust"}
+"""Options that act on estimator sdp and not on all others."""
 PULL = 0.02
 """Weight of the pull towards the prior, in units of chi^2 per squared scale. A parameter that lies one scale
 from the prior is pulled by a fiftieth of a deviation at most, however long the log; what the motion leaves
@@ -158,10 +160,11 @@ class EstimateOptions:
             )
         without_effect = self._without_effect()
         if without_effect:
+            helps = "ask for estimator sdp, or " * (set(without_effect) <= _OF_LEAST_SQUARES)
             raise OptionError(
                 f"{' and '.join(without_effect)} would have no effect on this estimator",
                 evidence={"estimator": self.estimator, "without_effect": without_effect},
-                remedy="ask for estimator sdp, or leave these options out",
+                remedy=f"{helps}leave these options out",
             )
         if not 0.0 < self.pull <= 1e6 or not 0.0 <= self.entropy <= 1e6:
             raise OptionError(

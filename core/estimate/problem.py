@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays import BaseParameters, BlockKey, Indices, JointMarks, JointVector, Parameters
-from ..errors import ExcitationError
+from ..errors import ExcitationError, OptionError
 from ..reduction.base import BaseModel
 from ..regressor.column_noise import acceleration_columns, noise_products
 from ..regressor.columns import ColumnPlan
@@ -270,6 +270,13 @@ class ObservedProblem:
     @property
     def _simulator(self) -> Simulator:
         problem, asked = self.problem, self.simulation
+        model = problem.base.model
+        if not {"kg", "kg m2"} & {parameter.unit for parameter in model.parameters}:
+            raise OptionError(
+                "a model without inertia cannot be simulated",
+                evidence={"terms": [term.name for term in model.terms]},
+                remedy="put rigid_body among the terms, or ask for estimator sdp, which simulates nothing",
+            )
         controllers = problem.controllers if asked.source == CONTROLLER else ()
         return Simulator(problem.base, problem.motions, asked, controllers, self.observation.positions)
 

@@ -131,7 +131,7 @@ class StateFilter:
             raise SolverError(
                 "the filter lost the robot: it foresees a motion that diverges",
                 evidence={"samples": state.samples + failed, "position": mean[size : size + joints].tolist()},
-                remedy="give kalman a smaller start_scale, or fit with sdp or didim",
+                remedy="give kalman a smaller start_scale or drift, or fit with sdp or didim",
             )
         taken, many = state.samples + len(missed), state.shortened + shortened
         return missed, FilterState(mean, factor, memory, held, fresh=False, samples=taken, shortened=many)

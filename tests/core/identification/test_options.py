@@ -227,3 +227,21 @@ def test_what_would_not_act_on_free_motion_is_refused_and_windows_where_no_motio
 def test_a_diagnosis_may_hold_whole_logs_out_instead_of_blocks():
     held = parse_diagnose_options({"validation": {"fraction": 0.0, "logs": [2]}}).validation
     assert {log for log, _ in held.chosen(2)} == {1}
+
+
+@pytest.mark.parametrize(
+    ("asked", "helps"),
+    [
+        ({"estimator": "wls", "bounds": {"total_mass": [1.0, 2.0]}}, True),
+        ({"estimator": "iv", "robust": True}, True),
+        ({"estimator": "tls", "iteration": {"most": 3}}, False),
+        ({"estimator": "oe", "simulation": {"bandwidth_hz": 3.0}}, False),
+        ({"estimator": "iv", "kalman": {"drift": 0.1}}, False),
+    ],
+)
+def test_least_squares_is_recommended_only_where_it_takes_the_option(asked, helps):
+    with pytest.raises(OptionError, match="no effect") as refusal:
+        parse_options(asked)
+    assert ("sdp" in refusal.value.remedy) == helps
+    if helps:
+        assert parse_options(asked | {"estimator": "sdp"})
