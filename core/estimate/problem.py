@@ -240,9 +240,8 @@ class ObservedProblem:
         from .kalman.filtering import follow  # compiled, too
 
         start, problem = self._filter_start(at, unscented=unscented), self.problem
-        return follow(
-            start, problem.motions, problem.held_out, self.kalman.drift * np.abs(start.values)
-        ).track
+        drift = self.kalman.drift * np.abs(start.values)
+        return follow(start, problem.motions, problem.held_out, drift).track
 
     def _filter_start(self, at: Parameters, *, unscented: bool) -> FilterStart:
         own = self.simulated(at).discounted()
