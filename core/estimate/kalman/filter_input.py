@@ -51,15 +51,17 @@ class Stretch:
             return torque
         return np.where(silent, own.mechanism.torque(self.tile.state.at(self.samples)), torque)
 
-    def noise(self, start: FilterStart) -> JointSeries:
+    def noise(self, start: FilterStart, torque: JointSeries) -> JointSeries:
         """Give the torque's deviation, which filters make as small as what the first fit leaves.
 
-        Where the torque is not usable it is as large as the torque.
+        Where the torque is not usable, or was not measured, it is as large as the torque.
         """
         usable = np.repeat(self.tile.usable[self.kept], self.tile.parallel.decimation, axis=0)[: self.count]
         gain = np.sqrt(np.sum(self.tile.parallel.response**2))
+        own = np.sqrt(np.mean(torque**2, axis=0))
+        whole = np.where(self.segment.unmeasured, own, start.torque_rms)
         known = start.options.torque_noise * start.system.noise
-        return np.asarray(np.where(usable, known, start.torque_rms) / gain)
+        return np.asarray(np.where(usable, known, whole) / gain)
 
     def begun(self, own: StateFilter, known: BaseParameters, factor: SquareMatrix) -> FilterState:
         """Begin at the measured motion; its speed is known as two samples, or a standstill, tell it."""

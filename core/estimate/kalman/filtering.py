@@ -151,7 +151,8 @@ def _run(
     own: StateFilter, state: FilterState, part: Stretch, start: FilterStart, drift: Vector | None
 ) -> tuple[JointVector, FilterState, int]:
     """Take a stretch in, in pieces where the parameters drift."""
-    samples, step = (part.position, part.torque(own), part.noise(start)), own.clock.step
+    torque, step = part.torque(own), own.clock.step
+    samples = part.position, torque, part.noise(start, torque)
     length = part.count if drift is None else max(1, round(DRIFT_SECONDS / step))
     squares, before = np.zeros(samples[0].shape[1]), state.shortened
     for begin in range(0, part.count, length):

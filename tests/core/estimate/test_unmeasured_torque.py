@@ -30,3 +30,12 @@ def test_the_torque_of_the_other_joint_is_predicted_about_as_well_as_by_least_sq
     least, own = (found(name, silent) for name in ("sdp", estimator))
     assert own.convergence.converged
     assert own.validation_total_percent < 3.0 * least.validation_total_percent
+
+
+@pytest.mark.parametrize("estimator", ["ekf", "srukf"])
+def test_a_filter_does_not_take_the_models_own_torque_for_exact(estimator):
+    least, own = (found(name, 1) for name in ("sdp", estimator))
+    assert own.convergence.converged
+    known = own.precision.standard_deviation > 0.0
+    apart = np.abs(own.estimate.base - least.estimate.base)[known]
+    assert np.all(apart < 5.0 * own.precision.standard_deviation[known])
