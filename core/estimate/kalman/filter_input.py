@@ -14,7 +14,7 @@ from ...signals.condition import Motion
 from ...signals.parallel import Tile
 from ...signals.segment import Segment
 from ...simulation.filter.state_filter import Clock, FilterState, StateFilter, filter_of
-from ...simulation.integrate import LONGEST_STEP
+from ...simulation.integrate import steps_between
 from .filter_start import FilterStart
 
 
@@ -91,5 +91,5 @@ def stretches(log: int, motion: Motion, held_out: frozenset[BlockKey]) -> Iterat
 def filter_of_segment(start: FilterStart, motion: Motion, segment: Segment) -> StateFilter:
     """Prepare the filter of a gap-free part of a motion."""
     step = 1.0 / segment.rate_hz
-    clock = Clock(step, start.substeps or max(1, int(np.ceil(step / LONGEST_STEP - 1e-9))))
+    clock = Clock(step, steps_between(step, start.substeps))
     return filter_of(start.base, start.standard, start.variance(motion), clock, unscented=start.unscented)
