@@ -16,7 +16,7 @@ LISTS = (*GAINS, "torque_gain", "saturation")
 
 @dataclass(frozen=True)
 class DeclaredController:
-    """Declare any part of a controller, in the units of `ControllerModel`; empty lists and None are fitted."""
+    """Declare any part of a controller, in the units of `ControllerModel`; empty lists, None: fitted."""
 
     kind: str | None = None
     kp: tuple[float, ...] = ()
