@@ -75,7 +75,8 @@ def _statements(found: Identification) -> Iterator[str]:
     for number, check in enumerate(found.guide.controllers, start=1):
         yield _recognised(number, check)
     for number, other in enumerate(found.guide.periods, start=1):
-        yield f"The motion of log {number} repeats every {other.seconds:.6g} s; each has the others beside it."
+        told = f"The motion of log {number} repeats every {other.seconds:.6g} s"
+        yield f"{told}; each period is held beside the others."
     if method.iterative:
         steps = len(ended.steps)
         went = "simulated" if found.innovations is None else "filtered"
