@@ -129,7 +129,8 @@ def _scaled(position: JointSeries, robot: RobotModel) -> JointSeries:
     for kind in (prismatic, ~prismatic):
         size = float(np.sqrt(np.mean(np.sum(moved[:, kind] ** 2, axis=1)))) if kind.any() else 0.0
         moved[:, kind] /= size if size > 0.0 else 1.0
-    return np.asarray(moved / np.sqrt(max(1, prismatic.any() + (~prismatic).any())))
+    kinds = int(prismatic.any()) + int((~prismatic).any())
+    return np.asarray(moved / np.sqrt(kinds))
 
 
 def _apart(motion: JointSeries) -> Vector:
