@@ -104,9 +104,7 @@ def read_options(options: Mapping[str, object]) -> IdentifyOptions:
 def options_for(options: Mapping[str, object], name: str) -> dict[str, object]:
     """Give a comparison's options for one estimator: without those that have no effect on it."""
     method = ESTIMATORS[name]
-    idle = {COMPARE, *(key for key, acts in _ACTS.items() if not acts(method))}
-    if _other_periods(options) and PERIODS not in method.sources:
-        idle.add("simulation.from")
+    idle = {COMPARE, *(key for key, acts in _ACTS.items() if not acts(method)), *_unusable(options, method)}
     own = {
         key: {inner: part for inner, part in value.items() if f"{key}.{inner}" not in idle}
         if isinstance(value, Mapping)
@@ -115,6 +113,11 @@ def options_for(options: Mapping[str, object], name: str) -> dict[str, object]:
         if key not in idle
     }
     return own | {"estimator": name}
+
+
+def _unusable(options: Mapping[str, object], method: Estimator) -> set[str]:
+    """Give the source of motion where the estimator cannot use it and others may."""
+    return {"simulation.from"} if _other_periods(options) and PERIODS not in method.sources else set()
 
 
 def _other_periods(options: Mapping[str, object]) -> bool:
