@@ -151,6 +151,7 @@ class EstimateOptions:
             robust=self.robust and method.row_weights,
             simulation=self.simulation.acting_on(method),
             iteration=self.iteration if method.iterative else plain.iteration,
+            kalman=self.kalman if isinstance(method, KalmanFilter) else plain.kalman,
         )
 
     @property

@@ -16,13 +16,11 @@ from ..estimate.problem import Problem
 from ..simulation.mechanism import mechanism_of
 from ..simulation.multistep import MultiStep, predict_motion
 from .identify import fit, judge, no_progress
-from .options import IdentifyOptions, parse_options
+from .options import BEGINNING, IdentifyOptions, parse_options
 from .result import Identification
 
 COMPARE = "compare"
 """Option: the names of the estimators."""
-BEGINNING = "sdp"
-"""Estimator by which robot and logs are held against each other before any is compared."""
 ALL = tuple(name for name in ESTIMATORS if name != AUTO)
 """The estimators that are compared unless some are named: a choice among them is none."""
 _ACTS: Mapping[str, Callable[[Estimator], bool]] = {
