@@ -36,6 +36,7 @@ class DeclaredController:
             self.velocity in (None, *RULES),
             abs(self.delay_samples or 0) <= LONGEST_DELAY,
             self.cutoff_hz is None or (self.velocity == "filtered" and self.cutoff_hz > 0.0),
+            min((*self.torque_gain, *self.saturation), default=1.0) > 0.0,
         ]
         lists = [getattr(self, name) for name in LISTS if getattr(self, name)]
         if not all(known) or len(set(map(len, lists))) > 1 or min(chain(*lists), default=0.0) < 0.0:
@@ -43,7 +44,7 @@ class DeclaredController:
                 "the description of the controller is not valid",
                 evidence={"pointer": "/options/controller", **dict(self.given())},
                 remedy=f"give a kind of {', '.join(KINDS)}, a velocity of {', '.join(RULES)}, in every list "
-                "one number of at least zero per joint, cutoff_hz for velocity filtered alone, and up to "
+                "one number per joint, gains of at least zero, the others above, cutoff_hz for velocity filtered alone, and up to "
                 f"{LONGEST_DELAY} samples of delay",
             )
 
