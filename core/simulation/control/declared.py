@@ -44,8 +44,8 @@ class DeclaredController:
                 "the description of the controller is not valid",
                 evidence={"pointer": "/options/controller", **dict(self.given())},
                 remedy=f"give a kind of {', '.join(KINDS)}, a velocity of {', '.join(RULES)}, in every list "
-                "one number per joint (gains at least zero, the others above), cutoff_hz for velocity filtered "
-                f"alone, and up to {LONGEST_DELAY} samples of delay",
+                "one number per joint (gains at least zero, the others above), cutoff_hz for filtered alone, "
+                f"and up to {LONGEST_DELAY} samples of delay",
             )
 
     def given(self) -> Iterator[tuple[str, object]]:
