@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import JointVector, Series
+from ..arrays import JointMarks, JointVector, Series
 from ..dynamics.model import standard_model
 from ..dynamics.terms.coulomb import Coulomb
 from ..errors import SolverError
@@ -90,6 +90,10 @@ class Trials:
         if key not in self._regressors:
             self._regressors[key] = self._regressor(setup)
         return Equations(self._regressors[key], setup.assignment.torque)
+
+    def moves(self, setup: Setup) -> JointMarks:
+        """Mark the joints that have equations: the others stand all the time."""
+        return np.asarray(self.samples.moved(setup.assignment).usable.any(axis=0))
 
     def outcome(self, equations: Equations) -> Outcome | None:
         """Fit a set-up with its constraints; None where no accurate optimum is found."""

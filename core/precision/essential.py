@@ -39,6 +39,8 @@ class Essential:
 def essential_parameters(system: System, precision: Inference) -> Essential:
     """Eliminate base parameters from the weakest on."""
     kept, path = _without_open(system, precision)
+    if not np.linalg.norm(system.triangle[:, kept]) > 0.0:
+        return Essential(kept, tuple(path))
     fit = _Fit.of(system, subset(precision, kept, system.triangle), kept)
     while len(fit.kept) > 1:
         ratios = fit.ratios

@@ -107,8 +107,18 @@ def infer(
         if prior is not None:
             known = prior.rows.shape[1]
             meat[:known, :known] += prior.rows.T @ prior.rows
+        meat = _no_negative(meat, column_scale(system.triangle))
         covariance = _sandwich(bread, meat)
     return Inference(information, meat, _open_share(system.triangle), factors)
+
+
+def _no_negative(meat: SquareMatrix, scale: Vector) -> SquareMatrix:
+    """Take negative variances out, which an estimated autocovariance leaves where columns nearly vanish."""
+    values, vectors = np.linalg.eigh(meat / np.outer(scale, scale))
+    if values[0] >= 0.0:
+        return meat
+    rows = scale[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))
+    return np.asarray(rows @ rows.T)
 
 
 def _own_spread(products: Memory, autocovariance: Vector) -> SquareMatrix:

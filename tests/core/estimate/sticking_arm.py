@@ -11,7 +11,7 @@ from functools import cache
 import numpy as np
 
 from tests.plant.cases import World, draw_world
-from veritorque.core.dynamics.model import standard_model
+from veritorque.core.dynamics.model import DynamicModel, standard_model
 from veritorque.core.log.model import JointLog
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.reduction.base import base_model
@@ -29,6 +29,9 @@ class Scene:
     """Hold an arm, its true base parameters, and columns of motions that are in no log."""
 
     world: World
+    model: DynamicModel
+    standard: np.ndarray
+    """The true standard parameters."""
     true: np.ndarray
     unseen: np.ndarray
 
@@ -59,13 +62,14 @@ def scene(robot: str) -> Scene:
     world = draw_world(rng, SEED, robot=robot, noise="white", duration=SECONDS, rate_hz=RATE_HZ)
     model = standard_model(world.arm.robot)
     base = base_model(model)
-    true = base.base_of(_truth(world, [parameter.name for parameter in model.parameters]))
+    standard = _truth(world, [parameter.name for parameter in model.parameters])
+    true = base.base_of(standard)
     signals = world.signals(())
     velocity = np.gradient(signals.position, signals.time, axis=0)
     acceleration = np.gradient(velocity, signals.time, axis=0)
     drawn = np.random.default_rng(SEED).normal(size=(3, STATES, velocity.shape[1]))
     state = MotionState(drawn[0], drawn[1] * velocity.std(axis=0), drawn[2] * acceleration.std(axis=0))
-    return Scene(world, true, dense(ColumnPlan(model, base.kept), state))
+    return Scene(world, model, standard, true, dense(ColumnPlan(model, base.kept), state))
 
 
 def _truth(world: World, names: list[str]) -> np.ndarray:

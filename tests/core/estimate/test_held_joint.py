@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from tests.core.estimate.sticking_arm import scene
 from tests.core.estimate.worlds import planar_robot, swing, true_parameters
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.errors import ExcitationError
@@ -14,7 +15,7 @@ from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.signals.condition import condition
 from veritorque.core.signals.recipe import FilterOptions
 from veritorque.core.signals.state import MotionState
-from veritorque.core.study import IdentifyRequest, identify
+from veritorque.core.study import IdentifyRequest, identify, identify_with_conflicts
 
 MODEL = standard_model(planar_robot())
 TRUE = true_parameters(MODEL)
@@ -24,7 +25,7 @@ FILTERS = ("ekf", "srukf")
 
 
 @cache
-def log_of_held(joint: int, noise: float = ENCODER) -> JointLog:
+def log_of_held(joint: int, noise: float = ENCODER, *, exchanged: bool = False) -> JointLog:
     """Record both joints, one of which stands; the other's friction and motion are known."""
     moving = swing(2, rate_hz=250.0)
     kept = np.arange(2) != joint
@@ -34,6 +35,7 @@ def log_of_held(joint: int, noise: float = ENCODER) -> JointLog:
     rng = np.random.default_rng(joint)
     position = state.position + noise * rng.normal(size=state.position.shape)
     torque = MODEL.torque(TRUE, state) + 0.02 * rng.normal(size=position.shape)
+    torque = torque[:, ::-1] if exchanged else torque
     return log_from_arrays("held", np.arange(len(position)) / 250.0, position, torque)
 
 
@@ -97,3 +99,31 @@ def test_output_error_that_parameters_are_not_separated_for_is_warned_of():
     document = identified(log_of_held(1), "oe")
     assert document["conflicts"] == []
     assert document["estimation"]["converged"] or any("did not converge" in one for one in document["doubts"])
+
+
+@pytest.mark.parametrize("joint", [0, 1])
+def test_a_joint_that_moves_alone_is_no_reason_to_call_channels_exchanged(joint):
+    request = IdentifyRequest(MODEL.robot, (log_of_held(joint),), {"bootstrap": {"draws": 0}})
+    _, conflicts = identify_with_conflicts(request, doubted=True)
+    assert conflicts.found == ()
+
+
+def test_channels_that_are_exchanged_are_found_though_one_joint_stands():
+    request = IdentifyRequest(MODEL.robot, (log_of_held(1, exchanged=True),), {"bootstrap": {"draws": 0}})
+    _, conflicts = identify_with_conflicts(request)
+    assert "exchanged" in conflicts.found[0].hypothesis.statement
+
+
+def test_a_log_of_one_joint_of_a_whole_arm_ends_in_an_answer():
+    own = scene("ur10e")
+    signals = own.world.signals(())
+    position = np.where(np.arange(6) == 1, signals.position, 0.4)
+    rate = np.gradient(position, signals.time, axis=0)
+    state = MotionState(position, rate, np.gradient(rate, signals.time, axis=0))
+    torque = own.model.torque(own.standard, state)
+    torque = torque + 1e-3 * torque.std(axis=0) * np.random.default_rng(0).normal(size=torque.shape)
+    noisy = position + ENCODER * np.random.default_rng(1).normal(size=position.shape)
+    log = log_from_arrays("one", signals.time, noisy, torque)
+    request = IdentifyRequest(own.world.arm.robot, (log,), {"bootstrap": {"draws": 0}})
+    rows = {row["name"]: row for row in identify(request)["base_parameters"]}
+    assert 0.0 < rows["FV2"]["standard_deviation"] < 0.05 * rows["FV2"]["value"]
