@@ -148,7 +148,10 @@ class _Simulation:
         ):
             self.seen[cycle] = self.q + self.noise[cycle]
             self.commands[cycle] = forward + self.loop.command(memory, wanted, rate, self.seen[cycle])
-            for step in range(cycle * self.per_cycle, (cycle + 1) * self.per_cycle):
+            first, last = cycle * self.per_cycle, max(cycle - 1, 0)
+            # a step lies half before and half after its positions, at which the command changes
+            self._advance(first, 0.5 * (self.commands[last] + self.commands[cycle]))
+            for step in range(first + 1, first + self.per_cycle):
                 self._advance(step, self.commands[cycle])
             if not np.abs(self.half).max() < FASTEST:
                 raise RunawayError(f"a joint of {self.arm.name} runs away after {cycle} cycles")
