@@ -106,6 +106,12 @@ class Estimation(Open):
     converged: bool
     stop_reason: str
     steps: Annotated[list[EstimationStep], about("empty where the equations are the same at any robot")]
+    start_error_percent: Annotated[
+        float | None,
+        about(
+            "torque error of the least squares it began at, on held-out data if any; null without iteration"
+        ),
+    ] = None
     simulation: Annotated[
         dict[str, JsonValue] | None, about("how the logs were replayed; null where nothing is simulated")
     ]

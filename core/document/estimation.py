@@ -7,6 +7,7 @@ import numpy as np
 from ..arrays import JointVector
 from ..estimate.kalman.innovations import Innovations, Track
 from ..estimate.methods.registry import ESTIMATORS
+from ..estimate.simulator import Guide
 from ..identification.choice import BIASED
 from ..identification.doubts import LEAST_SQUARES
 from ..identification.result import Identification
@@ -26,6 +27,7 @@ def estimation_fields(found: Identification) -> dict[str, object]:
         "converged": ended.converged,
         "stop_reason": ended.reason,
         "steps": [vars(step) for step in ended.steps],
+        "start_error_percent": found.start_percent,
         "simulation": _simulation(found) if method.iterative else None,
         "instruments": None if found.endogeneity is None else vars(found.endogeneity),
         "attenuation": {
@@ -45,13 +47,14 @@ def _over_time(track: Track) -> dict[str, object]:
 
 def _simulation(found: Identification) -> dict[str, object]:
     """Say what drove the simulated robot along the logs."""
-    asked = found.simulation
+    asked = found.guide.options
     source = {"from": asked.source, "bandwidth_hz": asked.bandwidth_hz, "substeps": asked.substeps}
-    if ESTIMATORS[found.estimator].free:
+    if not ESTIMATORS[found.estimator].sources:
         source["window_seconds"] = asked.window_seconds
     return source | {
         "position_rms": found.position_rms,
-        "controllers": [_controller(check) for check in found.controllers],
+        "controllers": [_controller(check) for check in found.guide.controllers],
+        "periods": [other.seconds for other in found.guide.periods],
     }
 
 
@@ -60,6 +63,7 @@ def _controller(check: ControllerCheck) -> dict[str, object]:
     return {
         "channel": check.channel,
         **vars(check.model),
+        "declared": [name for name, _ in check.declared.given()],
         "command_residual_percent": [100.0 * share for share in check.tried[0].residual],
     }
 
@@ -69,11 +73,11 @@ def _statements(found: Identification) -> Iterator[str]:
     method, ended = ESTIMATORS[found.estimator], found.convergence
     chosen = "" if found.choice is None else f" It was chosen because {found.choice.reason}."
     yield f"Estimator: {method.title} ({found.estimator}).{chosen}"
-    for number, check in enumerate(found.controllers, start=1):
-        yield _recognised(number, check)
+    yield from _guided(found.guide)
     if method.iterative:
         steps = len(ended.steps)
         went = "simulated" if found.innovations is None else "filtered"
+        went = "went over" if found.guide.periods else went
         yield f"It {went} the logs {steps} time{'s' * (steps != 1)}: {ended.reason}."
     if found.innovations is not None:
         yield _foreseen(found.innovations)
@@ -81,6 +85,15 @@ def _statements(found: Identification) -> Iterator[str]:
         yield _difference(found.endogeneity)
     if found.estimator in LEAST_SQUARES:
         yield from _attenuated(found.attenuation.missed)
+
+
+def _guided(guide: Guide) -> Iterator[str]:
+    """Say what told of the motion beside the measured one."""
+    for number, check in enumerate(guide.controllers, start=1):
+        yield _recognised(number, check)
+    for number, other in enumerate(guide.periods, start=1):
+        told = f"The motion of log {number} repeats every {other.seconds:.6g} s"
+        yield f"{told}; each period is held beside the others."
 
 
 def _recognised(number: int, check: ControllerCheck) -> str:

@@ -7,13 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from ..errors import OptionError
+from ..simulation.control.declared import DeclaredController
 from .constraints import Bounds
 from .methods.kalman import KalmanFilter
-from .methods.method import Estimator
+from .methods.method import CONTROLLER, PERIODS, REPLAY, Estimator
 from .methods.registry import ESTIMATORS
 
-REPLAY, CONTROLLER = "replay", "controller"
-SOURCES = (REPLAY, CONTROLLER)
+SOURCES = (REPLAY, CONTROLLER, PERIODS)
 SOLVERS = ("clarabel", "cvxpy")
 _OF_LEAST_SQUARES = {"bounds", "entropy", "robust"}
 """Options that act on estimator sdp and not on all others."""
@@ -29,7 +29,8 @@ class SimulationOptions:
 
     source: str = REPLAY
     """What drives the robot: ``replay``, the measured torque; ``controller``, its own controller, which is
-    recognised in the log. Called ``from`` in options and results."""
+    recognised in the log; ``periods``: nothing, other periods of the motion are taken. Called ``from`` in
+    options and results."""
     bandwidth_hz: float = 5.0
     """Bandwidth of the controller that pulls a replayed motion to the measured one. The measured torque is
     played as it is; what the controller adds is what the model lacks."""
@@ -37,6 +38,8 @@ class SimulationOptions:
     """Steps of the simulation per sample; if not given, as many as make a step no longer than 1 ms."""
     window_seconds: float = 0.2
     """Length of the windows of free motion (``oe``), s."""
+    controller: DeclaredController = field(default_factory=DeclaredController)
+    """What is known of the controller; the option `controller`."""
 
     def __post_init__(self) -> None:
         """Refuse what is no source, no controller, or no step."""
@@ -59,6 +62,16 @@ class SimulationOptions:
                 remedy="give a bandwidth from 0.01 to 100 Hz, windows from 0.01 to 10 s, and 1 to 100 steps "
                 "per sample",
             )
+
+    def acting_on(self, method: Estimator) -> "SimulationOptions":
+        """Give the same without what has no effect on an estimator."""
+        plain = SimulationOptions()
+        if not method.iterative:
+            return plain
+        if not method.sources:
+            return replace(plain, substeps=self.substeps, window_seconds=self.window_seconds)
+        known = self if self.source in method.sources else replace(plain, bandwidth_hz=self.bandwidth_hz)
+        return replace(known, window_seconds=plain.window_seconds)
 
 
 @dataclass(frozen=True)
@@ -136,8 +149,9 @@ class EstimateOptions:
             self,
             estimator=estimator,
             robust=self.robust and method.row_weights,
-            simulation=self.simulation if method.iterative else plain.simulation,
+            simulation=self.simulation.acting_on(method),
             iteration=self.iteration if method.iterative else plain.iteration,
+            kalman=self.kalman if isinstance(method, KalmanFilter) else plain.kalman,
         )
 
     @property
@@ -158,6 +172,7 @@ class EstimateOptions:
                 },
                 remedy="choose one of the known names",
             )
+        self._check_source()
         without_effect = self._without_effect()
         if without_effect:
             helps = "ask for estimator sdp, or " * (set(without_effect) <= _OF_LEAST_SQUARES)
@@ -179,17 +194,36 @@ class EstimateOptions:
                 remedy="ask for solver cvxpy together with entropy",
             )
 
+    def _check_source(self) -> None:
+        """Refuse motion that the estimator cannot use."""
+        method, source = self.method, self.simulation.source
+        if method.sources and source not in method.sources:
+            others = [name for name, other in ESTIMATORS.items() if source in other.sources]
+            raise OptionError(
+                f"the estimator {method.name} takes no motion from {source}",
+                evidence={"pointer": "/options/simulation/from", "known": list(method.sources)},
+                remedy=f"ask for one of {', '.join(others)}, or simulate from {' or '.join(method.sources)}",
+            )
+
     def _without_effect(self) -> list[str]:
         """List the options that have been set and would not act on this estimator."""
         method, simulation, usual = self.method, self.simulation, SimulationOptions()
         controlled = (simulation.source, simulation.bandwidth_hz) != (usual.source, usual.bandwidth_hz)
+        simulated = (simulation.bandwidth_hz, simulation.substeps) != (usual.bandwidth_hz, usual.substeps)
+        free = method.iterative and not method.sources
+        plain = replace(simulation, controller=usual.controller)
         options: Mapping[str, tuple[bool, bool]] = {
             "bounds": (method.feasible, self.bounds != Bounds()),
             "entropy": (method.feasible, self.entropy > 0.0),
             "robust": (method.row_weights, self.robust),
-            "simulation": (method.iterative, simulation != usual),
-            "simulation.from and simulation.bandwidth_hz": (not method.free, controlled),
-            "simulation.window_seconds": (method.free, simulation.window_seconds != usual.window_seconds),
+            "simulation": (method.iterative, plain != usual),
+            "simulation.from and simulation.bandwidth_hz": (not free, controlled),
+            "simulation.bandwidth_hz and simulation.substeps": (simulation.source != PERIODS, simulated),
+            "simulation.window_seconds": (free, simulation.window_seconds != usual.window_seconds),
+            "controller without simulation.from controller": (
+                self.simulates_controllers,
+                simulation.controller != usual.controller,
+            ),
             "iteration": (method.iterative, self.iteration != IterationOptions()),
             "kalman": (isinstance(method, KalmanFilter), self.kalman != KalmanOptions()),
         }

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays import BaseParameters, BlockKey, Indices, JointMarks, JointVector, Parameters
-from ..errors import ExcitationError, OptionError
+from ..errors import ExcitationError
 from ..reduction.base import BaseModel
 from ..regressor.column_noise import acceleration_columns, noise_products
 from ..regressor.columns import ColumnPlan
@@ -19,16 +19,14 @@ from ..regressor.rows import InstrumentedRows, RowSource
 from ..regressor.whitened import WhitenedRows
 from ..signals.condition import Motion
 from ..signals.filtered_noise import acceleration_variance
-from ..simulation.control.controller_check import ControllerCheck
-from ..simulation.control.own_controller import controller_of
 from .compensation import Compensated
 from .gaussian_prior import GaussianPrior
 from .kalman.filter_start import FilterStart
 from .kalman.innovations import Innovations, Track
 from .methods.method import Equations
-from .options import CONTROLLER, KalmanOptions, SimulationOptions
+from .options import KalmanOptions
 from .reversals import reversal_weights
-from .simulator import Simulator
+from .simulator import Guide, Simulator
 from .system import INSTRUMENTAL, LEAST_SQUARES, Criterion, ordinary, weighted
 
 CHANGE = 1e-4
@@ -59,17 +57,6 @@ class Problem:
         """Choose the columns of the base parameters."""
         return ColumnPlan(self.base.model, self.base.kept)
 
-    @cached_property
-    def controllers(self) -> tuple[ControllerCheck, ...]:
-        """Find the controller of every log.
-
-        Raises
-        ------
-        OptionError
-            If a log does not show its controller, or none that is known.
-        """
-        return tuple(controller_of(motion.log) for motion in self.motions)
-
     def observed(
         self,
         progress: Callable[[float], None] | None = None,
@@ -91,8 +78,8 @@ class ObservedProblem:
     """Whether rows beside a reversal are weighted by their own noise."""
     weights: JointVector | None = None
     """Weight of these rows per joint; None while it is not chosen, and for one."""
-    simulation: SimulationOptions = field(default_factory=SimulationOptions)
-    """How the motions are replayed, where columns of simulated motion are asked for."""
+    guide: Guide = field(default_factory=Guide)
+    """What tells of the motion where columns of simulated motion are asked for."""
     criterion: Criterion = LEAST_SQUARES
     """How the factors become equations."""
     kalman: KalmanOptions = field(default_factory=KalmanOptions)
@@ -250,7 +237,7 @@ class ObservedProblem:
             at,
             weighted(own.factors, own.columns_of, own.size),
             torque_scales(self.observation, self.fitted),
-            self.simulation.substeps,
+            self.guide.options.substeps,
             self.kalman,
             unscented,
         )
@@ -262,22 +249,14 @@ class ObservedProblem:
             for tile, moved in zip(motion.tiles(), other.tiles(), strict=True):
                 at_kept = tile.first + tile.parallel.decimation * np.arange(len(tile.time))
                 apart = (moved.state.position - tile.state.position)[at_kept]
-                squares += np.sum(tile.usable * apart**2, axis=0)
-                counts += tile.usable.sum(axis=0)
+                squares += np.sum(moved.usable * apart**2, axis=0)
+                counts += moved.usable.sum(axis=0)
         return np.asarray(np.sqrt(squares / np.maximum(counts, 1.0)))
 
     @property
     def _simulator(self) -> Simulator:
-        problem, asked = self.problem, self.simulation
-        model = problem.base.model
-        if not {"kg", "kg m2"} & {parameter.unit for parameter in model.parameters}:
-            raise OptionError(
-                "a model without inertia cannot be simulated",
-                evidence={"terms": [term.name for term in model.terms]},
-                remedy="put rigid_body among the terms, or ask for estimator sdp, which simulates nothing",
-            )
-        controllers = problem.controllers if asked.source == CONTROLLER else ()
-        return Simulator(problem.base, problem.motions, asked, controllers, self.observation.positions)
+        problem = self.problem
+        return Simulator(problem.base, problem.motions, self.guide, self.observation.positions)
 
     def check_excitation(self) -> None:
         """Refuse a motion in which no inertia takes any torque: every joint keeps its speed.

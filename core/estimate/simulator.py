@@ -1,24 +1,57 @@
-"""Simulate the motions of a problem as a robot of given parameters makes them, and differentiate them.
+"""Give the motions of a problem as a robot of given parameters makes them, or as other periods know them.
 
 The simulation is compiled for some ten seconds, hence imported only where it is used.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..arrays import BaseParameters, JointSeries, Parameters
+from ..errors import OptionError
 from ..reduction.base import BaseModel
-from ..regressor.rows import RowSource
+from ..regressor.rows import RowSource, Tiled
 from ..signals.condition import Motion
+from ..signals.periods import OtherPeriods, other_periods
 from ..simulation.control.controller_check import ControllerCheck
+from ..simulation.control.own_controller import controller_of
 from ..simulation.mechanism import Mechanism, mechanism_of
-from .methods.method import TORQUE, WINDOWS
-from .options import CONTROLLER, SimulationOptions
+from .methods.method import CONTROLLER, PERIODS, TORQUE, WINDOWS
+from .options import SimulationOptions
 
 if TYPE_CHECKING:
     from ..simulation.closed_loop.simulated import SimulatedMotion, Source
+
+
+@dataclass(frozen=True, eq=False)
+class Guide:
+    """Hold what tells of the logs' motion beside the measured one."""
+
+    options: SimulationOptions = field(default_factory=SimulationOptions)
+    controllers: tuple[ControllerCheck, ...] = ()
+    """The logs' own controllers, where these drive the robot."""
+    periods: tuple[OtherPeriods, ...] = ()
+    """The logs' other periods, where these are taken."""
+
+
+def guide_of(base: BaseModel, motions: Sequence[Motion], options: SimulationOptions) -> Guide:
+    """Find the logs' controllers, or periods, where they are asked for.
+
+    Raises
+    ------
+    OptionError
+        If a log does not show its controller, or none that is known, or one that was not declared.
+    LogError
+        If a motion does not repeat.
+    """
+    if options.source == CONTROLLER:
+        found = tuple(controller_of(motion.log, options.controller) for motion in motions)
+        return Guide(options, controllers=found)
+    if options.source == PERIODS:
+        return Guide(options, periods=tuple(other_periods(motion, base.model.robot) for motion in motions))
+    return Guide(options)
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,28 +60,43 @@ class Simulator:
 
     base: BaseModel
     motions: tuple[Motion, ...]
-    options: SimulationOptions
-    controllers: tuple[ControllerCheck, ...]
-    """The logs' own controllers, where these drive the robot."""
+    guide: Guide
     positions: JointSeries
     """A sample of the positions along the motions."""
 
-    def moved(self, at: Parameters) -> tuple["SimulatedMotion", ...]:
-        """Give the motions of a robot of these standard parameters."""
+    def moved(self, at: Parameters) -> tuple[Tiled, ...]:
+        """Give the motions of a robot of these standard parameters, or those of other periods."""
+        return self.guide.periods or self.simulated(at)
+
+    def simulated(self, at: Parameters) -> tuple["SimulatedMotion", ...]:
+        """Simulate a robot of these standard parameters.
+
+        Raises
+        ------
+        OptionError
+            If the model has no inertia.
+        """
         from ..simulation.closed_loop.simulated import SimulatedMotion
 
+        model = self.base.model
+        if not {"kg", "kg m2"} & {parameter.unit for parameter in model.parameters}:
+            raise OptionError(
+                "a model without inertia cannot be simulated",
+                evidence={"terms": [term.name for term in model.terms]},
+                remedy="put rigid_body among the terms, or ask for estimator sdp, which simulates nothing",
+            )
         mechanism = mechanism_of(self.base.model, at)
         pairs = zip(self.motions, self._sources(mechanism), strict=True)
-        substeps = self.options.substeps
+        substeps = self.guide.options.substeps
         return tuple(SimulatedMotion(motion, mechanism, source, substeps) for motion, source in pairs)
 
     def _sources(self, mechanism: Mechanism) -> "list[Source]":
         from ..simulation.closed_loop.controlled import Controlled
         from ..simulation.closed_loop.replay import Replay, default_gains
 
-        if self.options.source == CONTROLLER:
-            return [Controlled(check.model) for check in self.controllers]
-        gains = default_gains(mechanism, self.positions, self.options.bandwidth_hz)
+        if self.guide.controllers:
+            return [Controlled(check.model) for check in self.guide.controllers]
+        gains = default_gains(mechanism, self.positions, self.guide.options.bandwidth_hz)
         return [Replay(gains, mechanism)] * len(self.motions)
 
     def differentiated(self, at: Parameters, output: str, changes: BaseParameters) -> RowSource:
@@ -67,8 +115,9 @@ class Simulator:
         mechanisms = [mechanism_of(self.base.model, robot) for robot in robots]
         base = self.base.base_of(at)
         if output == WINDOWS:
-            seconds, substeps = self.options.window_seconds, self.options.substeps
+            seconds, substeps = self.guide.options.window_seconds, self.guide.options.substeps
             silent = [motion.segments[0].unmeasured for motion in self.motions]
-            return FreeWindows(base, changes, mechanisms, seconds, silent, substeps)
-        runs = [[own.of(one) for one in mechanisms] for own in self.moved(at)]
+            held = [motion.recipe.held for motion in self.motions]
+            return FreeWindows(base, changes, mechanisms, seconds, silent, held, substeps)
+        runs = [[own.of(one) for one in mechanisms] for own in self.simulated(at)]
         return Sensitivities(base, changes, runs, of_torque=output == TORQUE)

@@ -10,19 +10,17 @@ from dataclasses import dataclass
 from ..errors import ExcitationError, LogError, OptionError, SolverError, VeritorqueError
 from ..estimate.methods.auto import AUTO
 from ..estimate.methods.kalman import KalmanFilter
-from ..estimate.methods.method import Estimator
+from ..estimate.methods.method import PERIODS, Estimator
 from ..estimate.methods.registry import ESTIMATORS
 from ..estimate.problem import Problem
 from ..simulation.mechanism import mechanism_of
 from ..simulation.multistep import MultiStep, predict_motion
 from .identify import fit, judge, no_progress
-from .options import IdentifyOptions, parse_options
+from .options import BEGINNING, IdentifyOptions, parse_options
 from .result import Identification
 
 COMPARE = "compare"
 """Option: the names of the estimators."""
-BEGINNING = "sdp"
-"""Estimator by which robot and logs are held against each other before any is compared."""
 ALL = tuple(name for name in ESTIMATORS if name != AUTO)
 """The estimators that are compared unless some are named: a choice among them is none."""
 _ACTS: Mapping[str, Callable[[Estimator], bool]] = {
@@ -30,9 +28,10 @@ _ACTS: Mapping[str, Callable[[Estimator], bool]] = {
     "prior.entropy": lambda method: method.feasible,
     "robust": lambda method: method.row_weights,
     "simulation": lambda method: method.iterative,
-    "simulation.from": lambda method: method.iterative and not method.free,
-    "simulation.bandwidth_hz": lambda method: method.iterative and not method.free,
-    "simulation.window_seconds": lambda method: method.free,
+    "simulation.from": lambda method: bool(method.sources),
+    "simulation.bandwidth_hz": lambda method: bool(method.sources),
+    "controller": lambda method: bool(method.sources),
+    "simulation.window_seconds": lambda method: method.iterative and not method.sources,
     "iteration": lambda method: method.iterative,
     "kalman": lambda method: isinstance(method, KalmanFilter),
 }
@@ -95,13 +94,15 @@ def read_options(options: Mapping[str, object]) -> IdentifyOptions:
     for key, acts in _ACTS.items():
         if not any(acts(ESTIMATORS[name]) for name in names):
             parse_options({"estimator": names[0], **_only(options, key)})
+    if _other_periods(options) and not any(PERIODS in ESTIMATORS[name].sources for name in names):
+        parse_options({"estimator": names[0], **_only(options, "simulation.from")})
     return parse_options(options_for(options, BEGINNING))
 
 
 def options_for(options: Mapping[str, object], name: str) -> dict[str, object]:
     """Give a comparison's options for one estimator: without those that have no effect on it."""
     method = ESTIMATORS[name]
-    idle = {COMPARE, *(key for key, acts in _ACTS.items() if not acts(method))}
+    idle = {COMPARE, *(key for key, acts in _ACTS.items() if not acts(method)), *_unusable(options, method)}
     own = {
         key: {inner: part for inner, part in value.items() if f"{key}.{inner}" not in idle}
         if isinstance(value, Mapping)
@@ -110,6 +111,16 @@ def options_for(options: Mapping[str, object], name: str) -> dict[str, object]:
         if key not in idle
     }
     return own | {"estimator": name}
+
+
+def _unusable(options: Mapping[str, object], method: Estimator) -> set[str]:
+    """Give the source of motion where the estimator cannot use it and others may."""
+    return {"simulation.from"} if _other_periods(options) and PERIODS not in method.sources else set()
+
+
+def _other_periods(options: Mapping[str, object]) -> bool:
+    """Tell whether instruments of other periods are asked for, which not every estimator takes."""
+    return _only(options, "simulation.from") == {"simulation": {"from": PERIODS}}
 
 
 def _only(options: Mapping[str, object], key: str) -> dict[str, object]:

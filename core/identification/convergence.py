@@ -30,7 +30,7 @@ class Iterate:
     """Share of the way to the step's estimate at which the next equations are written."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Convergence:
     """Say how an estimator ended."""
 
@@ -38,6 +38,8 @@ class Convergence:
     reason: str
     steps: tuple[Iterate, ...]
     """None where one step is all."""
+    start: BaseParameters | None = None
+    """The estimate of least squares that it began at; None where one step is all."""
 
 
 ONE_STEP = Convergence(converged=True, reason="the equations are the same at any robot", steps=())
@@ -62,6 +64,7 @@ def converge(
     if not method.iterative:
         return step, found, ONE_STEP
     steps = list[Iterate]()
+    start = found.base
     at, base, share = found.standard, found.base, 1.0
     for number in range(options.most):
         tell(number / options.most)
@@ -73,12 +76,12 @@ def converge(
         steps.append(Iterate(change, found.objective, share))
         if change < options.tolerance:
             reason = f"the predicted torque changed by less than {options.tolerance:g} of its RMS"
-            return step, found, Convergence(converged=True, reason=reason, steps=tuple(steps))
+            return step, found, Convergence(converged=True, reason=reason, steps=tuple(steps), start=start)
         at, base = at + share * (found.standard - at), base + share * (found.base - base)
     last = f"the last one changed the torque by {steps[-1].change:.2g} of its RMS"
     taken = "one step was" if options.most == 1 else f"{options.most} steps were"
     reason = f"{taken} taken, and {last}"
-    return step, found, Convergence(converged=False, reason=reason, steps=tuple(steps))
+    return step, found, Convergence(converged=False, reason=reason, steps=tuple(steps), start=start)
 
 
 def _relative(measured: Step, change: BaseParameters, of: BaseParameters) -> float:

@@ -13,6 +13,7 @@ from ..estimate.methods.kalman import KalmanFilter
 from ..estimate.methods.method import Step
 from ..estimate.plausibility import link_bounds
 from ..estimate.problem import ObservedProblem, Problem
+from ..estimate.simulator import Guide, guide_of
 from ..estimate.system import System
 from ..log.model import JointLog
 from ..numerics.block_bootstrap import block_draws
@@ -50,8 +51,10 @@ class Fit:
     estimate: Estimate
     convergence: Convergence
     """How an iterative estimator ended."""
+    guide: Guide
+    """What told of the logs' motion beside the measured one, where it iterates."""
     position_rms: JointVector | None
-    """RMS of its simulated less the measured positions, rad or m; None where nothing was simulated."""
+    """RMS of that motion less the measured positions, rad or m; None where there is none."""
     track: Track | None
     """Its parameters over time; None where they were not followed."""
     options: IdentifyOptions
@@ -83,17 +86,18 @@ def fit(
     return replace(found, choice=choice)
 
 
+def refitted(problem: Problem, options: IdentifyOptions, tell: Progress, least: Fit) -> Fit:
+    """Fit as asked what least squares was fitted to: that is the fit where no iteration is asked for."""
+    return fit(problem, options, tell, least.observation) if options.estimate.method.iterative else least
+
+
 def _fit(problem: Problem, options: IdentifyOptions, tell: Progress, observation: Observation) -> Fit:
     """Fit by the estimator that the options name."""
     tell("estimate", 0.6)
     asked = options.estimate
+    guide = guide_of(problem.base, problem.motions, asked.simulation)
     data = ObservedProblem(
-        problem,
-        observation,
-        asked.robust,
-        asked.weigh_reversals,
-        simulation=asked.simulation,
-        kalman=asked.kalman,
+        problem, observation, asked.robust, asked.weigh_reversals, guide=guide, kalman=asked.kalman
     )
     data.check_excitation()
     prior = default_prior(problem.base.model, torque_scales(observation, data.fitted), problem.sizes)
@@ -110,7 +114,7 @@ def _fit(problem: Problem, options: IdentifyOptions, tell: Progress, observation
     if isinstance(method, KalmanFilter) and asked.kalman.drift > 0.0 and step.innovations is not None:
         followed = data.tracked(found.standard, unscented=method.unscented)
         track = followed.widened(step.innovations.dispersion)
-    return Fit(problem, observation, step, found, convergence, apart, track, options)
+    return Fit(problem, observation, step, found, convergence, guide, apart, track, options)
 
 
 def judge(logs: tuple[JointLog, ...], found: Fit, tell: Progress, mapper: Mapper = SERIAL) -> Identification:
@@ -165,8 +169,10 @@ def judge(logs: tuple[JointLog, ...], found: Fit, tell: Progress, mapper: Mapper
         held_out=problem.held_out,
         estimator=options.estimate.estimator,
         convergence=found.convergence,
-        simulation=options.estimate.simulation,
-        controllers=problem.controllers if options.estimate.simulates_controllers else (),
+        start_percent=None
+        if found.convergence.start is None
+        else total_percent(observation, held or fitted, found.convergence.start),
+        guide=found.guide,
         position_rms=found.position_rms,
         innovations=found.step.innovations,
         track=found.track,

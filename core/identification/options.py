@@ -4,7 +4,7 @@ The options of several packages are read here; each package keeps its own as a f
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
 import numpy as np
@@ -15,12 +15,15 @@ from ..estimate.constraints import Bounds, CentreBox, CentreEllipsoid, LinkSize
 from ..estimate.options import EstimateOptions, IterationOptions, KalmanOptions, SimulationOptions
 from ..fields import Fields, scalar_meanings
 from ..signals.recipe import FilterOptions
+from ..simulation.control.declared import LISTS, DeclaredController
 from ..validation.holdout import HoldOut
 
 DIAGNOSIS_HOLD_OUT = HoldOut(fraction=0.25, blocks=40)
 """A diagnosis needs many held-out blocks: the interval of a gain is drawn from them."""
 
 APPLY, REPORT = "apply", "report"
+BEGINNING = "sdp"
+"""Estimator by which robot and logs are held against each other before any other fits them."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +64,13 @@ class IdentifyOptions:
     anew."""
     given: Mapping[str, object] = field(default_factory=dict)
 
+    @property
+    def least_squares(self) -> "IdentifyOptions":
+        """Give the same by the least squares that an iteration begins at; itself where nothing iterates."""
+        if not self.estimate.method.iterative:
+            return self
+        return replace(self, estimate=self.estimate.by(BEGINNING))
+
     def __post_init__(self) -> None:
         """Refuse what cannot be done with a correction."""
         if self.conflicts not in (APPLY, REPORT):
@@ -94,6 +104,9 @@ VALIDATION_FIELDS = scalar_meanings(HoldOut) | {"logs": "a list of log numbers, 
 SIMULATION_FIELDS = {"from": "the name of a source"} | {
     name: meaning for name, meaning in scalar_meanings(SimulationOptions).items() if name != "source"
 }
+CONTROLLER_FIELDS = scalar_meanings(DeclaredController) | dict.fromkeys(
+    LISTS, "a list of one number of at least zero per joint"
+)
 _SECTIONS = {
     "filter": scalar_meanings(FilterOptions),
     "validation": VALIDATION_FIELDS,
@@ -101,6 +114,7 @@ _SECTIONS = {
     "prior": PRIOR_FIELDS,
     "bounds": BOUND_FIELDS,
     "simulation": SIMULATION_FIELDS,
+    "controller": CONTROLLER_FIELDS,
     "iteration": scalar_meanings(IterationOptions),
     "kalman": scalar_meanings(KalmanOptions),
 }
@@ -179,7 +193,7 @@ def _options(
             estimate=top.record(
                 EstimateOptions(),
                 bounds=_bounds(inner["bounds"]),
-                simulation=_simulation(inner["simulation"]),
+                simulation=_simulation(inner["simulation"], inner["controller"]),
                 iteration=inner["iteration"].record(IterationOptions()),
                 kalman=inner["kalman"].record(KalmanOptions()),
                 **prior,
@@ -217,10 +231,19 @@ def _rows_of_links(fields: Fields, name: str, width: int) -> list[list[float]]:
     return listed
 
 
-def _simulation(fields: Fields) -> SimulationOptions:
-    """Read the section, whose source has a name that Python keeps for itself."""
+def _simulation(fields: Fields, controller: Fields) -> SimulationOptions:
+    """Read the section, whose source has a name that Python keeps for itself, and that of the controller."""
     source = fields.text("from") if fields.has("from") else SimulationOptions().source
-    return fields.record(SimulationOptions(), source=source)
+    return fields.record(SimulationOptions(), source=source, controller=_controller(controller))
+
+
+def _controller(fields: Fields) -> DeclaredController:
+    lists = {
+        name: tuple(fields.numbers(name, len(fields.items(name, least=1))).tolist())
+        for name in LISTS
+        if fields.has(name)
+    }
+    return fields.record(DeclaredController(), **lists)
 
 
 def _validation(fields: Fields, default: HoldOut) -> HoldOut:

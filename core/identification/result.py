@@ -6,7 +6,7 @@ from ..arrays import BlockKey, JointVector, Matrix
 from ..estimate.estimate import Estimate
 from ..estimate.feasibility import Feasibility
 from ..estimate.kalman.innovations import Innovations, Track
-from ..estimate.options import SimulationOptions
+from ..estimate.simulator import Guide
 from ..log.model import JointLog
 from ..precision.attenuation import Attenuation
 from ..precision.endogeneity import Endogeneity
@@ -16,7 +16,6 @@ from ..reduction.base import BaseModel
 from ..regressor.observe import Observation
 from ..robot.extent import Extent
 from ..signals.condition import Motion
-from ..simulation.control.controller_check import ControllerCheck
 from ..validation.excitation import ExcitationScore
 from ..validation.mass_matrix import MassMatrixCheck
 from ..validation.scores import JointScore
@@ -60,12 +59,12 @@ class Identification:
     """Its name in the registry."""
     convergence: Convergence
     """How it ended, where it takes more than one step."""
-    simulation: SimulationOptions
-    """How the logs were simulated, where they were."""
-    controllers: tuple[ControllerCheck, ...]
-    """The logs' own controllers, where these drove the simulated robot."""
+    guide: Guide
+    """What told of the logs' motion beside the measured one, where it iterates."""
+    start_percent: float | None
+    """Error of the least squares that an iteration began at, like `judged_percent`; None without one."""
     position_rms: JointVector | None
-    """RMS of simulated less measured positions, rad or m; None where nothing was simulated."""
+    """RMS of that motion less the measured positions, rad or m; None where there is none."""
     innovations: Innovations | None
     """What a Kalman filter says of itself; None where nothing was filtered."""
     track: Track | None
@@ -76,6 +75,11 @@ class Identification:
     """Why this estimator, where the choice was left open."""
     attenuation: Attenuation
     """What noise of positions makes of the inertias of least squares."""
+
+    @property
+    def judged_percent(self) -> float:
+        """Give the error on held-out data; where none was held out, on what was fitted."""
+        return self.validation_total_percent if self.validation else self.fit_total_percent
 
     @property
     def feasible(self) -> bool:

@@ -88,7 +88,10 @@ class InstrumentedRows:
             pairs = zip(equations(self.plan, tile), equations(self.plan, other), strict=True)
             yield (
                 tile,
-                [(np.hstack([beside[:, :-1], rows]), usable) for (rows, usable), (beside, _) in pairs],
+                [
+                    (np.hstack([beside[:, :-1], rows]), usable & known)
+                    for (rows, usable), (beside, known) in pairs
+                ],
             )
 
 

@@ -5,6 +5,7 @@ The choice needs a fit, so it is made where fits are. Its first equations are th
 
 from dataclasses import dataclass
 
+from .method import SIMULATED
 from .sdp import SemidefiniteProgramme
 
 AUTO = "auto"
@@ -17,3 +18,4 @@ class Automatic(SemidefiniteProgramme):
     name: str = AUTO
     title: str = "chosen by the noise of the positions"
     iterative: bool = True
+    sources: tuple[str, ...] = SIMULATED

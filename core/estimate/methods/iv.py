@@ -9,7 +9,7 @@ solved, and Z is made again with the robot that was found. Source: Janot, Vandan
 from dataclasses import dataclass
 
 from ...arrays import Parameters
-from .method import FitData
+from .method import PERIODS, SIMULATED, FitData
 from .simulating import Simulating
 
 
@@ -19,6 +19,7 @@ class InstrumentalVariables(Simulating):
 
     name: str = "iv"
     title: str = "instrumental variables, physically consistent"
+    sources: tuple[str, ...] = (*SIMULATED, PERIODS)
 
     def with_columns(self, at: Parameters, data: FitData) -> FitData:
         """Put the simulated columns before the measured ones."""

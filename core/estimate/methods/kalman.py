@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from ...arrays import Parameters
 from ..system import ordinary
-from .method import FitData, Step
+from .method import SIMULATED, FitData, Step
 from .wls import joint_equations
 
 
@@ -24,7 +24,7 @@ class KalmanFilter:
     needs: tuple[str, ...] = ()
     feasible: bool = True
     iterative: bool = True
-    free: bool = False
+    sources: tuple[str, ...] = SIMULATED
     row_weights: bool = False
 
     def equations(self, at: Parameters | None, data: FitData) -> Step:

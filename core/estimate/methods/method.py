@@ -15,6 +15,10 @@ from ..system import Criterion, System
 
 TORQUE, POSITION, WINDOWS = "torque", "position", "windows"
 """What of a simulation is compared with the log; ``windows``: positions of free motion over short windows."""
+REPLAY, CONTROLLER, PERIODS = "replay", "controller", "periods"
+"""Where motion without the noise of the measured one comes from: the robot driven by the measured torque, or
+by its own controller; or other periods of a motion that repeats, in which nothing is simulated."""
+SIMULATED = (REPLAY, CONTROLLER)
 
 
 @runtime_checkable
@@ -125,8 +129,8 @@ class Estimator(Protocol):
         """Tell whether the equations depend on the robot that they are written at."""
 
     @property
-    def free(self) -> bool:
-        """Tell whether the measured torque alone drives what it simulates: no controller pulls."""
+    def sources(self) -> tuple[str, ...]:
+        """List where the motion that it simulates may come from; none where there is no choice."""
 
     @property
     def row_weights(self) -> bool:

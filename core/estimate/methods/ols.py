@@ -16,7 +16,7 @@ class OrdinaryLeastSquares:
     needs: tuple[str, ...] = ()
     feasible: bool = False
     iterative: bool = False
-    free: bool = False
+    sources: tuple[str, ...] = ()
     row_weights: bool = False
 
     def equations(self, at: Parameters | None, data: FitData) -> Step:  # noqa: ARG002  (the same at any robot)

@@ -31,5 +31,5 @@ CLOSED_LOOP_OUTPUT_ERROR = OutputError(
     "cloe", "simulated motion (closed-loop output error), physically consistent", output=POSITION
 )
 OPEN_LOOP_OUTPUT_ERROR = OutputError(
-    "oe", "free motion over short windows (output error), physically consistent", output=WINDOWS, free=True
+    "oe", "free motion over short windows (output error), physically consistent", output=WINDOWS, sources=()
 )

@@ -8,7 +8,7 @@ Control Engineering Practice 74 (2018).
 from dataclasses import dataclass
 
 from ...arrays import Parameters
-from .method import FitData
+from .method import PERIODS, SIMULATED, FitData
 from .simulating import Simulating
 
 
@@ -18,6 +18,7 @@ class PrewhitenedInstrumentalVariables(Simulating):
 
     name: str = "piv"
     title: str = "prewhitened instrumental variables, physically consistent"
+    sources: tuple[str, ...] = (*SIMULATED, PERIODS)
 
     def with_columns(self, at: Parameters, data: FitData) -> FitData:
         """Put the simulated columns before the measured ones, and prewhiten both."""

@@ -4,7 +4,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from ...arrays import Parameters
-from .method import FitData, Step
+from .method import SIMULATED, FitData, Step
 from .wls import joint_equations
 
 
@@ -18,7 +18,7 @@ class Simulating(ABC):
     feasible: bool = True
     iterative: bool = True
     row_weights: bool = False
-    free: bool = False
+    sources: tuple[str, ...] = SIMULATED
 
     def equations(self, at: Parameters | None, data: FitData) -> Step:
         """Write the equations at a robot; at None those of weighted least squares."""

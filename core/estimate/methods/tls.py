@@ -21,7 +21,7 @@ class CompensatedLeastSquares:
     needs: tuple[str, ...] = ()
     feasible: bool = True
     iterative: bool = False
-    free: bool = False
+    sources: tuple[str, ...] = ()
     row_weights: bool = False
 
     def equations(self, at: Parameters | None, data: FitData) -> Step:  # noqa: ARG002  (the same at any robot)

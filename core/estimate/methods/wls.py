@@ -20,7 +20,7 @@ class WeightedLeastSquares:
     needs: tuple[str, ...] = ()
     feasible: bool = False
     iterative: bool = False
-    free: bool = False
+    sources: tuple[str, ...] = ()
     row_weights: bool = True
 
     def equations(self, at: Parameters | None, data: FitData) -> Step:  # noqa: ARG002  (the same at any robot)

@@ -20,6 +20,7 @@ from .control_law import ControlLaw, Inputs
 
 Kind = Literal["pd", "cascade"]
 VelocityRule = Literal["measured", "backward", "two_tap", "central", "filtered"]
+KINDS: Final = get_args(Kind)
 RULES: Final = get_args(VelocityRule)
 LONGEST_DELAY: Final = 2
 """Most samples by which a reference may be late or early in a log: a bus and its recorder add one each."""
@@ -53,7 +54,7 @@ class ControllerModel:
     def __post_init__(self) -> None:
         """Refuse controllers that are none."""
         wrong = [
-            self.kind not in get_args(Kind) or self.velocity not in RULES,
+            self.kind not in KINDS or self.velocity not in RULES,
             not _fit(self.kp, self.kd, *filter(len, (self.ki, self.torque_gain, self.saturation))),
             (self.velocity == "filtered") != (self.cutoff_hz is not None and self.cutoff_hz > 0.0),
             abs(self.delay_samples) > LONGEST_DELAY,

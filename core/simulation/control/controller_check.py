@@ -7,17 +7,18 @@ the residuals of least squares separate the structures.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import Final, get_args
+from typing import Final
 
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from ...arrays import EquationRows, JointMask, JointSeries, JointVector
+from ...arrays import EquationRows, JointMask, JointSeries
 from ...errors import OptionError
 from ...log.defects.saturation import Limit
 from ...log.model import JointLog, LogRows
-from .controller import LONGEST_DELAY, RULES, ControllerModel, Kind, late, seen_velocity, speed_wanted
-from .controller_fit import FITS, left_by
+from .controller import KINDS, LONGEST_DELAY, RULES, ControllerModel, Kind, late, seen_velocity, speed_wanted
+from .controller_fit import fitted_gains, left_by
+from .declared import DeclaredController
 
 ACCEPTED: Final = 0.02
 """Largest RMS of the recomputed less the logged command, as a share of the logged one. On the EMPS, a servo
@@ -54,6 +55,8 @@ class ControllerCheck:
     channel: str
     """Channel that the command was compared with."""
     tried: tuple[Tried, ...]
+    declared: DeclaredController
+    """What of it was declared, and not fitted."""
 
     @property
     def model(self) -> ControllerModel:
@@ -76,6 +79,7 @@ class _Record:
     channel: str
     kept: JointMask
     """Rows that are compared: neither saturated nor without neighbours."""
+    declared: DeclaredController
     torque_gain: tuple[float, ...]
     saturation: tuple[float, ...]
 
@@ -84,54 +88,40 @@ class _Record:
         return float(np.linalg.norm(self.command[self.kept[:, joint], joint]))
 
 
-def check_controller(log: JointLog) -> ControllerCheck:
-    """Fit every structure to the longest stretch of a log.
+def check_controller(log: JointLog, declared: DeclaredController | None = None) -> ControllerCheck:
+    """Fit every structure to the longest stretch of a log, or those that agree with what is declared.
 
     Raises
     ------
     OptionError
         If the log has no reference or no command, or no structure's gains can be determined.
     """
-    record = _record(log)
+    declared = declared or DeclaredController()
+    record = _record(log, declared)
     idle = [joint + 1 for joint in range(log.joints) if record.size(joint) == 0.0]
-    tried = [] if idle else [one for kind in get_args(Kind) for one in _structures(record, kind)]
+    tried = [] if idle else [one for kind in KINDS for one in _structures(record, kind)]
     if not tried:
         raise OptionError(
             "the gains of the controller cannot be determined from the log",
             evidence={"channel": record.channel, "joints_without_command": idle},
-            remedy="give a log in which every joint moves beside its reference, or declare the controller",
+            remedy="give a log in which every joint moves beside its reference, or declare all gains",
         )
     tried.sort(key=lambda one: one.worst * (1.0 + WORTH * bool(one.model.ki)))
     best = tried[0].model
     return ControllerCheck(
         record.channel,
         tuple(replace(one, at_best_gains=_with_gains(record, one.model, best)) for one in tried),
+        declared,
     )
 
 
-def command_residual(model: ControllerModel, log: JointLog) -> JointVector:
-    """Give the RMS of a declared controller's command less the logged one per joint, as a share of it.
-
-    Raises
-    ------
-    OptionError
-        If the log lacks a channel that this takes, or has another number of joints.
-    """
-    if len(model.kp) != log.joints:
-        raise OptionError(
-            "the controller is not that of the log's joints",
-            evidence={"gains": len(model.kp), "joints": log.joints},
-            remedy="give one gain of every kind per joint",
-        )
-    return np.array(_residual(_record(log, model.saturation), model))
-
-
-def _record(log: JointLog, saturation: tuple[float, ...] = ()) -> _Record:
+def _record(log: JointLog, declared: DeclaredController) -> _Record:
     """Read the longest stretch, and say what is the command in it."""
+    declared.check_joints(log.joints)
     start, stop = max(log.segments, key=lambda segment: segment[1] - segment[0])
     rows = log.source.rows(start, min(stop, start + MOST_ROWS))
     channel = "torque_ref" if rows.command is None else "command"
-    command = _logged(rows, channel)
+    command, _ = _logged(rows, channel), [_logged(rows, name) for name in declared.channels]
     if np.array_equal(_logged(rows, "position_ref"), rows.position):
         raise OptionError(
             "the gains of the controller cannot be determined from the log",
@@ -141,23 +131,27 @@ def _record(log: JointLog, saturation: tuple[float, ...] = ()) -> _Record:
     kept = np.zeros(command.shape, dtype=bool)
     kept[2 * LONGEST_DELAY : -2 * LONGEST_DELAY] = True
     limits = np.array([_limit(rows, column) for column in command.T])
-    kept &= np.abs(command) < (np.minimum(limits, saturation) if saturation else limits)
-    gain: tuple[float, ...] = ()
-    if channel == "command" and rows.torque is not None:
-        scale = np.sum(command**2, axis=0)
-        gain = tuple(map(float, np.sum(rows.torque * command, axis=0) / np.where(scale > 0.0, scale, 1.0)))
-        _check_gain(gain)
+    limits = np.minimum(limits, declared.saturation or np.inf)
+    kept &= np.abs(command) < limits
+    gain = declared.torque_gain or (_torque_gain(rows) if channel == "command" else ())
     saturation = tuple(map(float, limits)) if np.isfinite(limits).all() else ()
-    return _Record(rows, 1.0 / log.rate_hz, command, channel, kept, gain, saturation)
+    return _Record(rows, 1.0 / log.rate_hz, command, channel, kept, declared, gain, saturation)
 
 
-def _check_gain(gain: tuple[float, ...]) -> None:
+def _torque_gain(rows: LogRows) -> tuple[float, ...]:
+    """Give the torque per unit of the command; nothing where no torque was logged."""
+    if rows.torque is None:
+        return ()
+    command = _logged(rows, "command")
+    scale = np.sum(command**2, axis=0)
+    gain = tuple(map(float, np.sum(rows.torque * command, axis=0) / np.where(scale > 0.0, scale, 1.0)))
     if min(gain) < 0.0:
         raise OptionError(
             "the torque falls where the command rises, so that it is not made of it",
             evidence={"torque_per_command": [round(value, 6) for value in gain]},
             remedy="map the command of the logged torque, with the same sign",
         )
+    return gain
 
 
 def _logged(rows: LogRows, channel: str) -> JointSeries:
@@ -182,9 +176,10 @@ def _limit(rows: LogRows, command: np.ndarray) -> float:
 
 def _structures(record: _Record, kind: Kind) -> Iterator[Tried]:
     """Fit every velocity rule, delay and feed-forward of one kind, without and with an integral."""
-    for blank in _blanks(record, kind):
-        rule = _with_cutoff(record, blank) if blank.velocity == "filtered" else blank
-        found = (_fitted(record, rule, integral=integral) for integral in (False, True))
+    for blank in filter(record.declared.allows, _blanks(record, kind)):
+        searched = blank.velocity == "filtered" and record.declared.cutoff_hz is None
+        rule = _with_cutoff(record, blank) if searched else blank
+        found = (_fitted(record, rule, integral=integral) for integral in record.declared.integrals)
         yield from (one for one in found if one is not None)
 
 
@@ -195,27 +190,28 @@ def _blanks(record: _Record, kind: Kind) -> Iterator[ControllerModel]:
     rules = RULES if record.rows.velocity is not None else tuple(rule for rule in RULES if rule != "measured")
     delays = range(-LONGEST_DELAY, LONGEST_DELAY + 1)
     for rule, delay, forward in product(rules, delays, (False, True)[: 1 + fed]):
-        yield ControllerModel(
+        blank = ControllerModel(
             kind=kind,
             kp=none,
             kd=none,
             torque_gain=record.torque_gain,
             velocity=rule,
-            cutoff_hz=1.0 if rule == "filtered" else None,
+            cutoff_hz=record.declared.cutoff_hz or 1.0 if rule == "filtered" else None,
             delay_samples=delay,
             saturation=record.saturation,
             feed_forward=forward,
         )
+        yield blank
 
 
 def _with_cutoff(record: _Record, blank: ControllerModel) -> ControllerModel:
-    """Search the cut-off of a low pass, without an integral."""
+    """Search the cut-off of a low pass, without an integral unless one is declared."""
 
     def at(logarithm: float) -> ControllerModel:
         return replace(blank, cutoff_hz=float(np.exp(logarithm)))
 
     def worst(logarithm: float) -> float:
-        found = _fitted(record, at(logarithm), integral=False)
+        found = _fitted(record, at(logarithm), integral=record.declared.integrals[0])
         return 1.0 if found is None else found.worst  # as much as without gains
 
     grid = np.log(_CUTOFFS / record.step)
@@ -244,7 +240,7 @@ def _fitted(record: _Record, blank: ControllerModel, *, integral: bool) -> Tried
     fits, left = [], []
     for joint, table in enumerate(_tables(record, blank, integral=integral)):
         triangle = np.asarray(np.linalg.qr(table, mode="r"))
-        found = FITS[blank.kind](triangle[:, :-1], triangle[:, -1])
+        found = fitted_gains(blank.kind, triangle[:, :-1], triangle[:, -1], record.declared.known(joint))
         if found is None or min(found) < 0.0:
             return None
         fits.append(found)

@@ -13,6 +13,7 @@ from scipy.optimize import least_squares
 
 from ...arrays import EquationRows, Parameters, Vector
 from .controller import Kind
+from .declared import Known
 
 _RANK: Final = 1e-7
 """Columns of length one depend on each other where a singular value is this share of the largest."""
@@ -55,10 +56,47 @@ def _fit_cascade(columns: EquationRows, target: Vector) -> Gains | None:
     return float(kp), float(kv), float(ki)
 
 
-FITS: Final[Mapping[Kind, Callable[[EquationRows, Vector], Gains | None]]] = {
+_FITS: Final[Mapping[Kind, Callable[[EquationRows, Vector], Gains | None]]] = {
     "pd": _fit_pd,
     "cascade": _fit_cascade,
 }
+
+
+def fitted_gains(kind: Kind, columns: EquationRows, target: Vector, known: Known) -> Gains | None:
+    """Fit those gains of one joint that are not known; None where they cannot be determined."""
+    used = known if columns.shape[1] > 2 else known[:2]
+    free = [place for place, value in enumerate(used) if value is None]
+    if len(free) == len(used):
+        return _FITS[kind](columns, target)
+    fixed = np.array([value or 0.0 for value in known])
+    return _fitted_beside(kind, columns, target, fixed, free) if free else _gains(fixed)
+
+
+def _fitted_beside(
+    kind: Kind, columns: EquationRows, target: Vector, fixed: Vector, free: list[int]
+) -> Gains | None:
+    """Fit some gains beside others that are known."""
+
+    def at(values: Vector) -> Vector:
+        gains = fixed.copy()
+        gains[free] = values
+        return gains
+
+    def missed(values: Vector) -> Vector:
+        return np.asarray(target - columns @ _answers(kind, at(values))[: columns.shape[1]])
+
+    begun = _FITS[kind](columns, target) or (1.0, 1.0, 1.0)
+    found = least_squares(missed, np.array(begun)[free], method="lm", x_scale="jac")
+    slopes = np.asarray(found.jac)
+    sizes = np.linalg.norm(slopes, axis=0)
+    if not np.all(sizes > 0.0) or np.linalg.matrix_rank(slopes / sizes, tol=_RANK) < len(free):
+        return None
+    return _gains(at(found.x))
+
+
+def _gains(values: Vector) -> Gains:
+    kp, kd, ki = values.tolist()
+    return kp, kd, ki
 
 
 def _solved(columns: EquationRows, target: Vector) -> Parameters | None:

@@ -84,3 +84,14 @@ def test_what_a_log_shows_against_itself_is_doubted_whatever_the_fit(world, fact
     found = _doubts(robot, rows, torque=np.round(torque) if said == "in whole numbers" else torque)
     (doubt,) = [one for one in found if one.startswith("Log log:")]
     assert said in doubt
+
+
+def test_a_simulation_that_does_not_follow_the_log_is_doubted(world):
+    robot, rows = world
+    found = _doubts(robot, rows, estimator="oe", simulation={"window_seconds": 10.0}, iteration={"most": 2})
+    assert any("its simulation may not follow the log" in one for one in found)
+
+
+@pytest.mark.parametrize("estimator", ["iv", "didim", "cloe", "oe"])
+def test_a_simulation_that_follows_the_log_is_not_doubted(world, estimator):
+    assert _doubts(*world, estimator=estimator) == []

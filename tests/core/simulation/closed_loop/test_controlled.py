@@ -17,6 +17,7 @@ from veritorque.core.robot.description import robot_from_description
 from veritorque.core.signals.condition import condition
 from veritorque.core.simulation.closed_loop.controlled import Controlled
 from veritorque.core.simulation.closed_loop.simulated import SimulatedMotion
+from veritorque.core.simulation.control.declared import DeclaredController
 from veritorque.core.simulation.control.own_controller import controller_of
 from veritorque.core.study import IdentifyRequest, identify
 
@@ -91,6 +92,37 @@ def test_a_command_that_no_known_controller_gives_is_refused():
         controller_of(unrelated)
 
 
+def test_a_declared_controller_that_does_not_recompute_the_command_is_refused_with_the_one_that_does():
+    _, log = driven(world("slide"), CASCADE)
+    with pytest.raises(OptionError, match="the declared controller does not recompute") as refused:
+        controller_of(log, DeclaredController(kind="cascade", velocity="backward", delay_samples=1))
+    assert refused.value.evidence["recognised"]["delay_samples"] == 0
+    assert controller_of(log, DeclaredController(kind="cascade", kp=CASCADE.kp)).accepted
+
+
+def test_a_declared_controller_drives_the_simulation_and_stands_in_the_result(servo):
+    robot, log = servo
+    # Gains as published for the benchmark (Janot, Gautier & Brunot 2019).
+    declared = {
+        "kind": "cascade",
+        "kp": [160.18],
+        "kd": [243.45],
+        "velocity": "two_tap",
+        "torque_gain": [35.15065],
+    }
+    options = {
+        "estimator": "didim",
+        "simulation": {"from": "controller"},
+        "controller": declared,
+        "bootstrap": {"draws": 0},
+    }
+    (told,) = identify(IdentifyRequest(robot, (log,), options))["estimation"]["simulation"]["controllers"]
+    assert {name: told[name] for name in declared} == declared
+    assert told["declared"] == ["kind", "kp", "kd", "torque_gain", "velocity"]
+    assert told["delay_samples"] == 0
+    assert max(told["command_residual_percent"]) < 2.0
+
+
 def test_a_log_of_currents_or_without_references_is_refused():
     _, log = driven(world("slide"), CASCADE)
     rows = whole_rows(log)
@@ -149,7 +181,12 @@ PUBLISHED = {"M1": (94.8, 95.5), "FV1": (200.0, 211.0), "FC1": (19.8, 20.6), "OF
 # By replay errors of the model act on the output: clie's and cloe's values are off by up to 1 % and 5 %.
 @pytest.mark.parametrize(
     ("estimator", "source"),
-    [*product(("iv", "didim"), ("replay", "controller")), ("clie", "controller"), ("cloe", "controller")],
+    [
+        *product(("iv", "didim"), ("replay", "controller")),
+        ("iv", "periods"),
+        ("clie", "controller"),
+        ("cloe", "controller"),
+    ],
 )
 def test_a_measured_servo_axis_has_its_published_parameters(servo, estimator, source):
     robot, log = servo

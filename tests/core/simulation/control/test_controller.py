@@ -16,7 +16,8 @@ from veritorque.core.robot.description import robot_from_description
 from veritorque.core.signals.state import MotionState
 from veritorque.core.simulation.closed_loop.loop import Loop, Played
 from veritorque.core.simulation.control.controller import ControllerModel
-from veritorque.core.simulation.control.controller_check import check_controller, command_residual
+from veritorque.core.simulation.control.controller_check import check_controller
+from veritorque.core.simulation.control.declared import DeclaredController
 from veritorque.core.simulation.mechanism import Mechanism, mechanism_of
 
 STEP = 1e-3
@@ -35,6 +36,21 @@ CONTROLLERS = {
     "pd that integrates": replace(PD, ki=(5e4,)),
     "pd, fed forward": replace(PD, feed_forward=True),
 }
+
+
+def whole(model: ControllerModel) -> DeclaredController:
+    """Declare everything that a controller is."""
+    return DeclaredController(
+        model.kind,
+        model.kp,
+        model.kd,
+        model.ki or (0.0,) * len(model.kp),
+        model.torque_gain,
+        model.velocity,
+        model.cutoff_hz,
+        model.delay_samples,
+        feed_forward=model.feed_forward,
+    )
 
 
 def from_rest(motion: MotionState) -> MotionState:
@@ -89,7 +105,10 @@ def test_the_check_names_the_structure_among_all_and_gives_its_gains(name):
         if one.model.velocity != "central" and bool(one.model.ki) <= bool(true.ki)
     )
     assert other.worst > 10.0 * check.tried[0].worst
-    assert command_residual(true, log)[0] < 1e-5
+    declared = check_controller(log, whole(true))
+    assert len(declared.tried) == 1
+    assert declared.tried[0].worst < 1e-5
+    assert (declared.model.kp, declared.model.kd) == (true.kp, true.kd)
 
 
 def test_the_check_finds_the_gains_of_every_joint_of_an_arm():
@@ -152,14 +171,61 @@ def test_a_log_without_reference_or_command_tells_no_controller(missing):
         check_controller(plain)
 
 
-def test_a_declared_controller_needs_the_channels_and_joints_that_it_has():
+@pytest.mark.parametrize(
+    ("declared", "missing"), [({"velocity": "measured"}, "velocity"), ({"feed_forward": True}, "torque_ref")]
+)
+def test_a_declared_controller_needs_the_channels_that_it_has(declared, missing):
     _, log = driven(world("slide"), CASCADE)
     with pytest.raises(OptionError, match="does not show") as refused:
-        command_residual(replace(CASCADE, velocity="measured"), log)
-    assert refused.value.evidence["missing"] == "velocity"
-    two = replace(CASCADE, kp=(1.0, 1.0), kd=(1.0, 1.0), torque_gain=())
+        check_controller(log, DeclaredController(**declared))
+    assert refused.value.evidence["missing"] == missing
+
+
+def test_a_declared_controller_is_one_of_the_logs_joints():
+    _, log = driven(world("slide"), CASCADE)
     with pytest.raises(OptionError, match="joints"):
-        command_residual(two, log)
+        check_controller(log, DeclaredController(kp=(1.0, 1.0)))
+
+
+@pytest.mark.parametrize(
+    "name", ["cascade that integrates, early", "pd that integrates", "cascade, low pass"]
+)
+@pytest.mark.parametrize("known", [("kp",), ("kd",), ("kp", "kd"), ("ki",)])
+def test_gains_that_are_not_declared_are_fitted(name, known):
+    true = CONTROLLERS[name]
+    _, log = driven(world("slide"), true)
+    found = check_controller(
+        log, DeclaredController(kind=true.kind, **{part: getattr(true, part) for part in known})
+    ).model
+    assert (found.velocity, found.delay_samples) == (true.velocity, true.delay_samples)
+    for part in ("kp", "kd", "ki"):
+        np.testing.assert_allclose(getattr(found, part), getattr(true, part), rtol=1e-4)
+
+
+def test_a_wrong_gain_shows_in_the_command_whatever_is_fitted_beside_it():
+    _, log = driven(world("slide"), CASCADE)
+    found = check_controller(log, DeclaredController(kind="cascade", kp=(60.0,)))
+    assert not found.accepted
+    assert found.model.kp == (60.0,)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"kp": (-1.0,)},
+        {"kp": (1.0,), "kd": (1.0, 2.0)},
+        {"cutoff_hz": 5.0},
+        {"velocity": "filtered", "cutoff_hz": 0.0},
+        {"delay_samples": 3},
+        {"kind": "state"},
+        {"velocity": "guessed"},
+        {"torque_gain": (0.0,)},
+        {"saturation": (0.0,)},
+    ],
+)
+def test_a_declaration_of_no_controller_is_refused(wrong):
+    with pytest.raises(OptionError, match="not valid"):
+        DeclaredController(**wrong)
 
 
 def test_a_joint_that_nothing_was_asked_of_tells_no_gains():
