@@ -13,9 +13,12 @@ from benchmarks.scene import smooth_motion, yumi_arm
 from veritorque.core.log.reader import read_log
 from veritorque.core.study import IdentifyRequest, identify_in_full
 
+OWN = ("hour", "coverage", "nelder_mead", "estimators")
+"""Benchmarks that have tests of their own."""
+
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [name for name in NAMES if name not in ("hour", "coverage", "nelder_mead")])
+@pytest.mark.parametrize("name", [name for name in NAMES if name not in OWN])
 def test_a_benchmark_gives_named_figures(name):
     figures = importlib.import_module(f"benchmarks.{name}").run(quick=True)
     assert len({figure.name for figure in figures}) == len(figures) > 0

@@ -6,7 +6,8 @@ joint. Velocities stand half a step beside positions. A row's velocity is the me
 it, and the damping of joints and controller acts on that mean: it is taken implicitly, so that no damping
 makes the scheme unstable (above 2 M / h a speed that is off alternates while it decays), and positions are of
 order two. Only the bias is taken at the velocity that the last acceleration foresees: by that, which is of
-order two, a row's torque differs from the controller's. Sources: see `loop_kernel`.
+order two, a row's torque differs from the controller's. A sampled controller holds its torque, which jumps at
+the rows: a row's torque is the mean of what was held before and after. Sources: see `loop_kernel`.
 """
 
 from dataclasses import dataclass

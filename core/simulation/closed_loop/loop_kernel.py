@@ -171,32 +171,43 @@ def _drift(state, place, before, ahead, out, implicit, step, way) -> None:
 
 
 @njit(inline="always")
-def _keep(state, implicit, before, after, rate, velocity, step) -> bool:
-    """Keep what the next step needs; tells whether a joint is faster than any robot's, or its speed nan."""
+def _keep(state, implicit, before, after, rate, velocity, step, asked) -> bool:
+    """Keep what the next step needs; tells whether a joint is faster than any robot's, or its speed nan.
+
+    `asked` is the share of the controller's new torque in this step: the damping in what it holds is whole.
+    """
     failed = False
     for j in range(len(implicit)):
         velocity[j, 0] = before[j, 0] + 0.5 * step * rate[j, 0]
         state[SPEED, j], state[ACCELERATION, j] = after[j, 0], rate[j, 0]
-        state[HELD, j] -= implicit[j] * velocity[j, 0]
+        state[HELD, j] -= implicit[j] / asked * velocity[j, 0]
         failed |= not abs(after[j, 0]) <= FASTEST
     return failed
 
 
 @njit(inline="always")
-def _ask(out, implicit, law, state, ahead, inputs, k, step, back, sampled) -> None:
-    """Write the torque of the controller: at every step, or where a sample is reached (`back` is 0)."""
+def _ask(out, implicit, law, state, ahead, inputs, k, step, back, sampled, begin) -> float:
+    """Write the torque of the controller: at every step, or where a sample is reached (`back` is 0).
+
+    Gives the share of the new torque in the step. A step lies half before and half after its positions: at a
+    sample, the torque held until then is the other half.
+    """
+    asked = 0.5 if sampled and back == 0.0 and not begin else 1.0
     if not sampled:
         _drive(out, implicit, law, state, inputs[0], inputs[1], inputs[2], k, step, back)
     elif back == 0.0:
         _command(out, implicit, law, state, ahead, inputs[0], inputs[1], inputs[2], k, step)
     for j in range(len(implicit)):
-        state[HELD, j] = out[j, 0]
+        last, state[HELD, j] = state[HELD, j], out[j, 0]
+        out[j, 0] = asked * out[j, 0] + (1.0 - asked) * last
+        implicit[j] *= asked
         if back == 0.0:
             state[FORWARD, j], state[PLACE, j], state[RATE, j] = (
                 inputs[0][k, j],
                 inputs[1][k, j],
                 inputs[2][k, j],
             )
+    return asked
 
 
 @njit(inline="always")
@@ -253,12 +264,12 @@ def play(  # pragma: no cover  (compiled)
         for number in range(substeps - 1 if begin else 0, substeps):
             _drift(state, place, before, ahead, out, implicit, part, 0.0 if begin else part)
             back = (substeps - number - 1) / substeps
-            _ask(out, implicit, law, state, ahead, inputs, k, step, back, sampled)
+            asked = _ask(out, implicit, law, state, ahead, inputs, k, step, back, sampled, begin)
             lane_place(robot, scratch, kept, place)
             lane_torque(robot, scratch, kept, ahead, still, bodies)
             lane_mass(robot, scratch, kept, mass, joints)
             kick(out, implicit, mass, scale, drives, offset, bodies, levels, held, before, after, part)
-            if _keep(state, implicit, before, after, out, velocity, part):
+            if _keep(state, implicit, before, after, out, velocity, part, asked):
                 return k
         lane_torque(robot, scratch, kept, velocity, out, bodies)
         _write(motion, share, k, drives, offset, levels, held, state, out, velocity, bodies)

@@ -18,6 +18,7 @@ from veritorque.core.robot.model import Coupling
 from veritorque.core.signals.state import MotionState
 from veritorque.core.simulation.closed_loop.loop import Loop, LoopState, Played
 from veritorque.core.simulation.control.control_law import ControlLaw, Gains, Inputs
+from veritorque.core.simulation.control.controller import ControllerModel
 from veritorque.core.simulation.drive import Drive, Feedback
 from veritorque.core.simulation.mechanism import Mechanism, mechanism_of
 from veritorque.core.simulation.rollout import rollout
@@ -107,6 +108,22 @@ def test_the_inverse_dynamics_hold_at_every_row_with_the_share_of_friction_in_th
     assert relative_difference(smooth.torque(parameters, played.state), played.torque) < 1e-12
     signs = model.torque(parameters, replace(played.state, friction_share=None))
     assert relative_difference(signs, played.torque) > 1e-3
+
+
+@pytest.mark.parametrize("substeps", [1, 3])
+def test_a_mass_under_a_sampled_controller_moves_as_it_exactly_does_where_its_torque_is_held(substeps):
+    machine, step = slope(IA=0.4), 0.01
+    at_rest = MotionState(*np.zeros((3, 1, 1)))
+    mass, weight = machine.mass_matrices(at_rest.position)[0, 0, 0], machine.torque(at_rest)[0, 0]
+    model = ControllerModel("pd", kp=(30.0,), kd=(2.0,), velocity="backward")
+    loop = Loop(machine, model.law(step), step, substeps)
+    played, _ = loop.run(loop.start(at_rest), model.inputs(step, np.full((300, 1), 0.2)))
+    place = played.state.position[:, 0]
+    held = 30.0 * (0.2 - place[1:]) - 2.0 * np.diff(place) / step
+    acceleration = (held - weight) / mass
+    expected = 0.5 * step**2 * (acceleration[:-1] + acceleration[1:])
+    np.testing.assert_allclose(np.diff(place[1:], 2), expected[:-1], atol=1e-13)
+    assert np.ptp(acceleration) > 1.0
 
 
 @pytest.mark.parametrize("name", WORLDS)
