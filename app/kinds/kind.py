@@ -104,6 +104,8 @@ class JobKind(ABC, Generic[Options]):
     """Whether it has the option `reference`, an earlier result that logs are compared with."""
     compares: ClassVar[bool] = False
     """Whether it fits several estimators, which the option `compare` names, or one."""
+    asks_joint: ClassVar[bool] = False
+    """Whether it is about one joint, which the option `joint` names; it then has options of its own."""
     result: ClassVar[type[BaseModel]]
     """Model of its result document."""
     words: ClassVar[Words]

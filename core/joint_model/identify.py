@@ -1,0 +1,133 @@
+"""Identify one joint: rigid first, then flexible from it, each with its own balance of noises.
+
+The balance of the noises of torque and position is one frequency. The one with the smallest innovations has
+the greatest likelihood, since the filter A / C is monic. Source: Ljung 1999, System Identification, ch. 7.
+"""
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from ..errors import SolverError, VeritorqueError
+from ..identification.identify import Progress
+from ..log.model import JointLog
+from ..robot.model import RobotModel
+from .judge import comparison, crossover_hz, held_out, impossible, known, not_seen, unsettled
+from .options import JointOptions, check_joint
+from .orders import RIGID, TIME_UNIT
+from .record import JointRecord, read_joint
+from .refined_iv import Fitted, Model, Task, fit, residual
+from .result import FoundModel, JointModel, NotFound
+from .signals import ClosedLoop, closed_loop, loads_of, measured_signals
+from .start import flexible_start, rigid_start
+
+LOWEST_HZ: Final = 0.16
+"""Lowest crossover: 1 rad/s. It takes the place of the integral's pole at zero, which does not decay."""
+HIGHEST_SHARE: Final = 0.06
+"""Highest crossover as a share of the rate: above it positions would be
+differentiated from sample to sample."""
+CROSSOVERS: Final = 12
+"""Crossovers that are compared: neighbours differ by some 70 %, and deviations change little between them."""
+ROUNDS: Final = 3
+"""Most often that the crossover is chosen anew and the model fitted by it."""
+
+
+def identify_joint(robot: RobotModel, log: JointLog, options: JointOptions, progress: Progress) -> JointModel:
+    """Identify the rigid model of a joint, and the flexible one where it is asked for.
+
+    Raises
+    ------
+    VeritorqueError
+        If the log does not show the joint alone, or no model of it is found.
+    """
+    check_joint(options.joint, len(robot.joints))
+    progress("read", 0.02)
+    record = read_joint(log, robot, options.joint)
+    loop = closed_loop(record, robot) if options.estimator == "clsrivc" else None
+    progress("rigid", 0.2)
+    fitter = _Fitter(record, loop)
+    rigid = fitter.rigid()
+    check = None if loop is None else loop.check
+    if options.order == RIGID.name:
+        return _answered(JointModel(robot, record, options, rigid, None, None, check))
+    progress("flexible", 0.4)
+    flexible = fitter.flexible(rigid)
+    if flexible.failure is not None:
+        return _answered(JointModel(robot, record, options, rigid, flexible, None, check))
+    evidence = comparison(flexible, rigid, record)
+    flexible = replace(flexible, failure=not_seen(evidence))
+    return _answered(JointModel(robot, record, options, rigid, flexible, evidence, check))
+
+
+def _answered(found: JointModel) -> JointModel:
+    """Give the models, unless none of them is an answer."""
+    last = found.models[-1].failure
+    if last is not None and all(model.failure is not None for model in found.models):
+        raise last
+    return found
+
+
+class _Fitter:
+    """Fit models to one record."""
+
+    def __init__(self, record: JointRecord, loop: ClosedLoop | None) -> None:
+        self.record, self.loop = record, loop
+        self.measured = measured_signals(record)
+        self.task = Task(
+            position=record.position - record.position[0],
+            origin=float(record.position[0]),
+            signals=self.measured,
+            step=record.step / TIME_UNIT,
+            fitted=record.fitted,
+            instruments=lambda _: self.measured,
+            crossover=2.0 * np.pi * 2.0 * TIME_UNIT,
+        )
+
+    def rigid(self) -> FoundModel:
+        """Fit the rigid model."""
+        return self._judged(self._balanced(fit(rigid_start(self.task), self.task)))
+
+    def flexible(self, rigid: FoundModel) -> FoundModel | NotFound:
+        """Fit the flexible model, from the rigid one."""
+        task = replace(self.task, crossover=rigid.fitted.task.crossover)
+        try:
+            return self._judged(self._balanced(flexible_start(rigid.fitted.model, task)))
+        except SolverError as failure:
+            return NotFound("flexible", failure)
+
+    def _balanced(self, fitted: Fitted) -> Fitted:
+        """Fit with the crossover of the smallest innovations."""
+        for _ in range(ROUNDS):
+            task = replace(fitted.task, crossover=self._crossover(fitted.model))
+            if task.crossover == fitted.task.crossover:
+                break
+            fitted = fit(fitted.model, task)
+        return fitted
+
+    def _crossover(self, model: Model) -> float:
+        highest = HIGHEST_SHARE / self.record.step
+        choices = 2.0 * np.pi * TIME_UNIT * np.geomspace(LOWEST_HZ, highest, CROSSOVERS)
+        found = [self._innovation(model, float(choice)) for choice in choices]
+        return float(choices[int(np.argmin(found))])
+
+    def _innovation(self, model: Model, crossover: float) -> float:
+        task = replace(self.task, crossover=crossover)
+        return residual(model, task).innovation(task.fitted)
+
+    def _judged(self, fitted: Fitted) -> FoundModel:
+        """Judge a model, after instruments of the closed loop where these are asked for."""
+        failure: VeritorqueError | None = None
+        loop, simulated = self.loop, None
+        if loop is not None:
+            try:
+                task = replace(fitted.task, instruments=lambda model: loop.play(model)[1])
+                fitted = fit(fitted.model, task)
+                simulated = loop.play(fitted.model)[0]
+            except SolverError as error:
+                failure = error
+        parameters, modes = known(fitted, loads_of(self.record))
+        failure = failure or impossible(fitted, parameters) or unsettled(fitted)
+        return FoundModel(
+            fitted, parameters, modes, held_out(fitted, simulated), crossover_hz(fitted), failure
+        )
