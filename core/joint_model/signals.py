@@ -1,6 +1,7 @@
 """Say what acts on a joint sample by sample: measured, and in a simulation under the log's own controller.
 
-Where friction holds the joint, it takes up all that acts: torque and loads count as zero there.
+Where friction holds the measured joint, it takes up all that acts: torque and loads count as zero there. A
+simulation knows which share of its level friction takes.
 """
 
 from dataclasses import dataclass
@@ -89,8 +90,7 @@ class ClosedLoop:
                 remedy="check that references and command are those of this controller, or ask for srivc",
             )
         position, torque, share, link = played.T
-        moving = np.abs(share) >= 1.0
-        return position, _signals(record, torque, share, link, moving)
+        return position, _signals(record, torque, share, link, np.ones(len(share), dtype=bool))
 
 
 def closed_loop(record: JointRecord, robot: RobotModel) -> ClosedLoop:

@@ -1,14 +1,10 @@
 """A joint's spring is found where the log shows it, and refused where it does not."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from tests.core.joint_model.plant import Plant, Run, log_of, recorded, robot_of
-from veritorque.core.errors import ExcitationError, LogError, OptionError
 from veritorque.core.identification.identify import no_progress
-from veritorque.core.joint_model import refined_iv, responses
 from veritorque.core.joint_model.identify import identify_joint
 from veritorque.core.joint_model.options import JointOptions
 from veritorque.core.joint_model.result import JointModel
