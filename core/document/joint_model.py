@@ -4,7 +4,7 @@ import numpy as np
 
 from ..arrays import Vector
 from ..errors import VeritorqueError
-from ..joint_model.options import ESTIMATORS
+from ..joint_model.names import ESTIMATORS
 from ..joint_model.response import measured_response, model_response
 from ..joint_model.result import FoundModel, JointModel, Known, NotFound, relative_percent
 from ..precision.inference import INTERVAL_95

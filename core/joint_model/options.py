@@ -2,23 +2,16 @@
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal, cast, get_args
+from typing import cast
 
 from ..errors import OptionError
 from ..fields import Fields
-from .orders import ORDERS, OrderName
+from .names import ESTIMATORS, ORDER_NAMES, EstimatorName, OrderName
 
-EstimatorName = Literal["srivc", "clsrivc"]
-ESTIMATORS: Mapping[EstimatorName, str] = {
-    "srivc": "refined instrumental variables, open loop",
-    "clsrivc": "refined instrumental variables, closed loop",
-}
-"""What each estimator is called. Instruments come from the measured torque through the model, or from the
-model under the log's own controller."""
 JOINT_OPTIONS: Mapping[str, str] = {
     "joint": "the number of a joint, counted from 1",
-    "order": f"one of {', '.join(ORDERS)}",
-    "estimator": f"one of {', '.join(get_args(EstimatorName))}",
+    "order": f"one of {', '.join(ORDER_NAMES)}",
+    "estimator": f"one of {', '.join(ESTIMATORS)}",
 }
 MOST_JOINTS = 1000
 """No robot has more."""
@@ -56,7 +49,7 @@ def parse_joint_options(options: Mapping[str, object] | None) -> JointOptions:
     """
     fields = _OptionFields(options or {}, "the options object", "/options", JOINT_OPTIONS)
     default = JointOptions(fields.integer("joint", (1, MOST_JOINTS)))
-    order = fields.choice("order", [*ORDERS]) if fields.has("order") else default.order
+    order = fields.choice("order", ORDER_NAMES) if fields.has("order") else default.order
     estimator = fields.choice("estimator", [*ESTIMATORS]) if fields.has("estimator") else default.estimator
     return JointOptions(default.joint, cast("OrderName", order), cast("EstimatorName", estimator))
 

@@ -11,13 +11,13 @@ Syst. Meas. Control 109; De Luca & Book 2016, Springer Handbook of Robotics, ch.
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final, Literal
+from typing import Final
 
 import numpy as np
 
 from ..arrays import Matrix, Vector
+from .names import OrderName
 
-OrderName = Literal["rigid", "flexible"]
 TIME_UNIT: Final = 1.0 / (2.0 * np.pi * 10.0)
 """Seconds: modes of joints lie around 10 Hz."""
 _DIFFERENCE: Final = 1e-6
@@ -171,4 +171,3 @@ FLEXIBLE: Final = Order(
     _flexible_coefficients,
     _flexible_modes,
 )
-ORDERS: Final = {order.name: order for order in (RIGID, FLEXIBLE)}

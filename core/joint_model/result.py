@@ -9,8 +9,9 @@ from ..arrays import Vector
 from ..errors import VeritorqueError
 from ..robot.model import RobotModel
 from ..simulation.control.controller_check import ControllerCheck
+from .names import OrderName
 from .options import JointOptions
-from .orders import OrderName, Quantity
+from .orders import Quantity
 from .record import JointRecord
 from .refined_iv import Fitted
 
