@@ -70,7 +70,8 @@ def _flexibility(found: JointModel) -> dict[str, object]:
         return {"seen": None, "statement": "The flexible model was not asked for.", "evidence": {}}
     evidence = found.comparison or {}
     if isinstance(flexible, NotFound) or flexible.failure is not None:
-        return {"seen": False, "statement": _sentence(_cause(flexible)), "evidence": evidence}
+        statement = _sentence(f"the flexible model is no answer: {_cause(flexible)}")
+        return {"seen": False, "statement": statement, "evidence": evidence}
     stiffness, deviation = flexible.parameters.at("stiffness")
     unit = joint_unit(found.robot, found.record.joint, "N m/rad")
     natural = float(flexible.modes.values[0])

@@ -46,7 +46,7 @@ class JointRecord:
     position: Samples
     """Rad or m."""
     direction: Samples
-    """Sign of the speed."""
+    """Mean of the speed's sign from each sample to the next, in which a torque is held."""
     torque: Samples
     """N m or N."""
     standing: SampleMask
@@ -96,7 +96,7 @@ def read_joint(log: JointLog, robot: RobotModel, joint: int) -> JointRecord:
         joint=joint,
         segment=segment,
         position=np.ascontiguousarray(positions[:, joint - 1]),
-        direction=np.sign(speed[:, 0]),
+        direction=_direction(speed[:, 0]),
         torque=np.ascontiguousarray(tile.torque[:count, joint - 1]),
         standing=np.asarray(long_runs(np.abs(speed) <= still, segment.still_samples)[:, 0]),
         gravity=_feels_gravity(robot, joint, np.median(positions, axis=0)),
@@ -104,6 +104,13 @@ def read_joint(log: JointLog, robot: RobotModel, joint: int) -> JointRecord:
         allowed=allowed,
         prismatic=bool(prismatic[joint - 1]),
     )
+
+
+def _direction(speed: Samples) -> Samples:
+    """Give the mean sign of a speed that changes evenly from each sample to the next."""
+    ahead = np.append(speed[1:], speed[-1])
+    size = np.abs(speed) + np.abs(ahead)
+    return np.divide(speed + ahead, size, out=np.zeros_like(speed), where=size > 0.0)
 
 
 def _check_torque(segment: Segment, joint: int) -> None:

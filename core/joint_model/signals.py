@@ -13,8 +13,6 @@ from ..arrays import Samples, SquareMatrix, Vector
 from ..errors import OptionError, SolverError
 from ..robot.model import RobotModel
 from ..signals.state import MotionState
-from ..simulation.closed_loop.controlled import Controlled
-from ..simulation.closed_loop.simulated import Piece
 from ..simulation.control.control_law import ControlLaw
 from ..simulation.control.control_law import Inputs as References
 from ..simulation.control.controller_check import ControllerCheck
@@ -101,6 +99,9 @@ def closed_loop(record: JointRecord, robot: RobotModel) -> ClosedLoop:
     OptionError
         If the log holds no reference or command, or no known controller recomputes the command.
     """
+    from ..simulation.closed_loop.controlled import Controlled  # both import the compiled loop
+    from ..simulation.closed_loop.simulated import Piece
+
     try:
         check = controller_of(record.segment.log)
     except OptionError as error:

@@ -26,7 +26,7 @@ MOTOR_SHARES: Final = (0.15, 0.5, 0.85)
 """Shares of the motor in the whole inertia that the grid holds."""
 FIRST_STEPS: Final = 4
 """Steps after which starts are compared."""
-TRIED: Final = 6
+TRIED: Final = 10
 """Points of the grid that are refined: those of the smallest innovations."""
 BEST: Final = 2
 """Refined ones that go on."""
