@@ -183,11 +183,6 @@ def _doubts(found: JointModel) -> list[str]:
     asked = found.models[-1]
     if asked.failure is not None:
         doubts.append(f"{_sentence(asked.failure.cause)} Remedy: {asked.failure.remedy}.")
-    if found.options.estimator == "srivc" and "position_ref" in found.record.segment.log.channels:
-        doubts.append(
-            "The joint is controlled: noise of positions is in its torque too, which biases srivc where it is"
-            " large. The log has references, so that clsrivc may be asked for."
-        )
     return doubts
 
 

@@ -93,16 +93,16 @@ class _Fitter:
 
     def flexible(self, rigid: FoundModel) -> FoundModel | NotFound:
         """Fit the flexible model, from the rigid one."""
-        found, failures = [], []
-        for crossover in {self.task.crossover, rigid.fitted.task.crossover}:
+        found: FoundModel | NotFound | None = None
+        for crossover in (self.task.crossover, rigid.fitted.task.crossover):
+            task = replace(self.task, crossover=crossover)
             try:
-                task = replace(self.task, crossover=crossover)
-                found.append(self._balanced(flexible_start(rigid.fitted.model, task)))
+                found = self._judged(self._balanced(flexible_start(rigid.fitted.model, task)))
             except SolverError as failure:
-                failures.append(failure)
-        if not found:
-            return NotFound("flexible", failures[0])
-        return self._judged(min(found, key=lambda one: one.steps[-1].innovation))
+                found = found or NotFound("flexible", failure)
+            if found.failure is None:
+                break
+        return found
 
     def _balanced(self, fitted: Fitted) -> Fitted:
         """Fit with the crossover of the smallest innovations."""

@@ -81,7 +81,6 @@ def read_joint(log: JointLog, robot: RobotModel, joint: int) -> JointRecord:
     """
     motion = condition(log, robot)
     segment = max(motion.segments, key=lambda one: one.samples)
-    _check_torque(segment, joint)
     kept = min(segment.kept, MOST_ROWS // motion.recipe.decimation)
     tile = segment.tile(motion.effort_scale, slice(0, kept))
     count = min(len(tile.state.position), MOST_ROWS)
@@ -91,6 +90,7 @@ def read_joint(log: JointLog, robot: RobotModel, joint: int) -> JointRecord:
     travels = np.asarray(np.ptp(positions, axis=0))
     allowed = _allowed(travels, prismatic, joint)
     _check_motion(motion, joint, travels, allowed)
+    _check_torque(segment, joint)
     speed, still = tile.state.velocity[:count, [joint - 1]], motion.recipe.still_speed[[joint - 1]]
     return JointRecord(
         joint=joint,

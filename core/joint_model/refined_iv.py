@@ -18,7 +18,7 @@ from ..errors import SolverError
 from .orders import TIME_UNIT, Order
 from .responses import feedthrough, filtered, powers, spectral_factor, stabilised, transients
 
-MOST_STEPS: Final = 30
+MOST_STEPS: Final = 20
 CONVERGED: Final = 1e-4
 """Change that ends the steps: of every coefficient as a share of it, or of its deviation if that is larger;
 of loads also of the torque's RMS. Further steps change nothing that the deviations show."""

@@ -26,9 +26,9 @@ MOTOR_SHARES: Final = (0.15, 0.5, 0.85)
 """Shares of the motor in the whole inertia that the grid holds."""
 FIRST_STEPS: Final = 4
 """Steps after which starts are compared."""
-TRIED: Final = 10
+TRIED: Final = 6
 """Points of the grid that are refined: those of the smallest innovations."""
-BEST: Final = 2
+BEST: Final = 1
 """Refined ones that go on."""
 
 

@@ -111,7 +111,8 @@ def log_of(signals: dict[str, np.ndarray], *, reference: bool = True, others: in
     position, torque = (np.column_stack([signals[name], still]) for name in ("position", "torque"))
     channels = {}
     if reference:
-        channels = {"position_ref": signals["reference"][:, None], "torque_ref": signals["torque"][:, None]}
+        wanted = np.column_stack([signals["reference"], still])
+        channels = {"position_ref": wanted, "torque_ref": torque}
     return log_from_arrays("joint", signals["time"], position, torque, **channels)
 
 
