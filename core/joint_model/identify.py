@@ -17,9 +17,9 @@ from .judge import comparison, crossover_hz, held_out, impossible, known, not_se
 from .options import JointOptions, check_joint
 from .orders import RIGID, TIME_UNIT
 from .record import JointRecord, read_joint
-from .refined_iv import Fitted, Model, Task, fit, residual
+from .refined_iv import Fitted, Signals, Task, fit, residual
 from .result import FoundModel, JointModel, NotFound
-from .signals import ClosedLoop, closed_loop, loads_of, measured_signals
+from .signals import ClosedLoop, closed_loop, loads_of, measured_signals, signals_of_link
 from .start import flexible_start, rigid_start
 
 LOWEST_HZ: Final = 0.16
@@ -29,6 +29,8 @@ HIGHEST_SHARE: Final = 0.06
 differentiated from sample to sample."""
 CROSSOVERS: Final = 12
 """Crossovers that are compared: neighbours differ by some 70 %, and deviations change little between them."""
+BENDS: Final = 2
+"""Times that the link's position is computed anew: each takes the error of gravity down by g / k."""
 FIRST_HZ: Final = 2.0
 """Crossover to begin with. A rigid model of a flexible joint takes its own error for noise of the torque, and
 would have the flexible one begin far too high."""
@@ -71,6 +73,11 @@ def _answered(found: JointModel) -> JointModel:
     return found
 
 
+def _driven_by(signals: Signals, task: Task) -> Task:
+    """Give a task with other signals, which are the instruments as well: those of the open loop."""
+    return replace(task, signals=signals, instruments=lambda _: signals)
+
+
 class _Fitter:
     """Fit models to one record."""
 
@@ -93,35 +100,48 @@ class _Fitter:
 
     def flexible(self, rigid: FoundModel) -> FoundModel | NotFound:
         """Fit the flexible model, from the rigid one."""
-        found: FoundModel | NotFound | None = None
-        for crossover in (self.task.crossover, rigid.fitted.task.crossover):
-            task = replace(self.task, crossover=crossover)
-            try:
-                found = self._judged(self._balanced(flexible_start(rigid.fitted.model, task)))
-            except SolverError as failure:
-                found = found or NotFound("flexible", failure)
-            if found.failure is None:
-                break
-        return found
+        first = self._flexible(rigid, self.task.crossover)
+        if first.failure is None:
+            return first
+        again = self._flexible(rigid, rigid.fitted.task.crossover)
+        return again if again.failure is None or isinstance(first, NotFound) else first
+
+    def _flexible(self, rigid: FoundModel, crossover: float) -> FoundModel | NotFound:
+        """Fit the flexible model, beginning with a balance of noises."""
+        task = replace(self.task, crossover=crossover)
+        try:
+            return self._judged(self._balanced(flexible_start(rigid.fitted.model, task)))
+        except SolverError as failure:
+            return NotFound("flexible", failure)
 
     def _balanced(self, fitted: Fitted) -> Fitted:
         """Fit with the crossover of the smallest innovations."""
+        fitted = self._behind_spring(fitted)
         for _ in range(ROUNDS):
-            task = replace(fitted.task, crossover=self._crossover(fitted.model))
+            task = replace(fitted.task, crossover=self._crossover(fitted))
             if task.crossover == fitted.task.crossover:
                 break
-            fitted = fit(fitted.model, task)
+            fitted = self._behind_spring(fit(fitted.model, task))
         return fitted
 
-    def _crossover(self, model: Model) -> float:
+    def _behind_spring(self, fitted: Fitted) -> Fitted:
+        """Fit anew with gravity at the link of a flexible joint."""
+        if not self.record.gravity or fitted.model.order is RIGID:
+            return fitted
+        for _ in range(BENDS):
+            if min(fitted.model.order.physical(fitted.model.coefficients)[:3]) <= 0.0:
+                return fitted
+            signals = signals_of_link(self.record, fitted.model, fitted.task.signals)
+            fitted = fit(fitted.model, _driven_by(signals, fitted.task))
+        return fitted
+
+    def _crossover(self, fitted: Fitted) -> float:
+        """Give the crossover at which a model leaves the smallest innovations."""
         highest = HIGHEST_SHARE / self.record.step
         choices = 2.0 * np.pi * TIME_UNIT * np.geomspace(LOWEST_HZ, highest, CROSSOVERS)
-        found = [self._innovation(model, float(choice)) for choice in choices]
-        return float(choices[int(np.argmin(found))])
-
-    def _innovation(self, model: Model, crossover: float) -> float:
-        task = replace(self.task, crossover=crossover)
-        return residual(model, task).innovation(task.fitted)
+        tasks = [replace(fitted.task, crossover=float(choice)) for choice in choices]
+        found = [residual(fitted.model, task).innovation(task.fitted) for task in tasks]
+        return tasks[int(np.argmin(found))].crossover
 
     def _judged(self, fitted: Fitted) -> FoundModel:
         """Judge a model, after instruments of the closed loop where these are asked for."""

@@ -110,7 +110,7 @@ def _direction(speed: Samples) -> Samples:
     """Give the mean sign of a speed that changes evenly from each sample to the next."""
     ahead = np.append(speed[1:], speed[-1])
     size = np.abs(speed) + np.abs(ahead)
-    return np.divide(speed + ahead, size, out=np.zeros_like(speed), where=size > 0.0)
+    return np.asarray(np.divide(speed + ahead, size, out=np.zeros_like(speed), where=size > 0.0))
 
 
 def _check_torque(segment: Segment, joint: int) -> None:

@@ -17,10 +17,10 @@ from ..simulation.control.control_law import ControlLaw
 from ..simulation.control.control_law import Inputs as References
 from ..simulation.control.controller_check import ControllerCheck
 from ..simulation.control.own_controller import controller_of
-from .orders import COULOMB, GRAVITY, OFFSET, Quantity
+from .orders import COULOMB, GRAVITY, OFFSET, TIME_UNIT, Quantity
 from .record import JointRecord
 from .refined_iv import Model, Signals
-from .responses import sampled
+from .responses import filtered, sampled
 
 
 def loads_of(record: JointRecord) -> tuple[Quantity, ...]:
@@ -31,6 +31,27 @@ def loads_of(record: JointRecord) -> tuple[Quantity, ...]:
 def measured_signals(record: JointRecord) -> Signals:
     """Give what acted on the joint by the log."""
     return _signals(record, record.torque, record.direction, record.position, ~record.standing)
+
+
+def signals_of_link(record: JointRecord, model: Model, before: Signals) -> Signals:
+    """Give what acted on the joint, with gravity at the position of the link behind its spring.
+
+    The spring gives way by delta, with Jl s^2 (q - delta) + g = (d s + k) delta. Taken at the motor, gravity
+    of g per rad would bring errors of g / k into the link's inertia.
+
+    Parameters
+    ----------
+    before
+        Signals with gravity near enough, such as at the motor.
+    """
+    _, link, stiffness, damping, _ = model.order.physical(model.coefficients)
+    step = record.step / TIME_UNIT
+    poles = np.array([1.0, TIME_UNIT * damping / link, TIME_UNIT**2 * stiffness / link])
+    gravity = before.loads[:, before.on_link] @ model.loads[before.on_link]
+    moved = filtered(np.array([1.0, 0.0, 0.0]), poles, record.position - record.position[0], step, "first")
+    bent = filtered(np.array([TIME_UNIT**2 / link]), poles, gravity - gravity[0], step, "first")
+    position = record.position - moved - bent - gravity[0] / stiffness
+    return _signals(record, record.torque, record.direction, position, ~record.standing)
 
 
 def _signals(

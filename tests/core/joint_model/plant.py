@@ -29,6 +29,8 @@ class Plant:
     viscous: float = 5.0
     coulomb: float = 0.0
     offset: float = 0.0
+    gravity: float = 0.0
+    """Torque by the sine of the link's position, N m; it is held between samples as well."""
 
     @staticmethod
     def with_mode(hertz: float, **others: float) -> "Plant":
@@ -41,11 +43,10 @@ class Plant:
         return self.motor + self.link
 
     def system(self) -> tuple[np.ndarray, np.ndarray]:
-        """Give the states' derivative by states and torque."""
+        """Give the states' derivative by states, and by torques on motor and link."""
         if self.stiffness is None:
-            return np.array([[0.0, 1.0], [0.0, -self.viscous / self.inertia]]), np.array(
-                [[0.0], [1.0 / self.inertia]]
-            )
+            gain = 1.0 / self.inertia
+            return np.array([[0.0, 1.0], [0.0, -gain * self.viscous]]), np.array([[0.0, 0.0], [gain, gain]])
         jm, jl, k, d, fv = self.motor, self.link, self.stiffness, self.damping, self.viscous
         states = [
             [0.0, 1.0, 0.0, 0.0],
@@ -53,7 +54,7 @@ class Plant:
             [0.0, 0.0, 0.0, 1.0],
             [k / jl, d / jl, -k / jl, -d / jl],
         ]
-        return np.array(states), np.array([[0.0], [1.0 / jm], [0.0], [0.0]])
+        return np.array(states), np.array([[0.0, 0.0], [1.0 / jm, 0.0], [0.0, 0.0], [0.0, 1.0 / jl]])
 
 
 @dataclass(frozen=True)
@@ -87,8 +88,10 @@ def recorded(plant: Plant, run: Run) -> dict[str, np.ndarray]:
     reference = run.begin + reference * (1.0 - np.exp(-((time / 0.3) ** 2)))
     system, gain = plant.system()
     discrete, held, *_ = cont2discrete((system, gain, np.eye(len(system)), np.zeros_like(gain)), step)
-    held = held[:, 0]
+    held, pulled = held.T
     state = np.tile([run.begin, 0.0], len(system) // 2)
+    if plant.stiffness is not None:  # at rest the spring carries the link
+        state[2] -= plant.gravity * np.sin(run.begin) / plant.stiffness
     position, torque = np.empty_like(time), np.empty_like(time)
     seen, wanted = run.begin, run.begin
     kp, kd = run.kp * plant.inertia, run.kd * plant.inertia
@@ -100,6 +103,7 @@ def recorded(plant: Plant, run: Run) -> dict[str, np.ndarray]:
         position[k] = seen
         torque[k] = kp * (wanted - seen) + kd * ((wanted - before) - (seen - last)) / step
         free = discrete @ state + held * (torque[k] + pushes[k] - plant.offset)
+        free -= plant.gravity * np.sin(state[-2]) * pulled
         rub = np.clip(free[1] / held[1], -plant.coulomb, plant.coulomb)
         state = free - held * rub
     return {"time": time, "position": position, "torque": torque, "reference": reference}

@@ -89,6 +89,17 @@ def test_friction_and_offset_of_the_motor_are_told_from_the_spring():
     assert found.flexible.parameters.at("offset")[0] == pytest.approx(0.5, abs=0.02)
 
 
+def test_gravity_acts_on_the_link_and_not_on_the_motor():
+    plant = Plant.with_mode(12.0, gravity=20.0)
+    log = log_of(recorded(plant, Run(highest_hz=18.0, seconds=5.0, noise=ENCODER)))
+    found = identify_joint(robot_of(level=True), log, JointOptions(1), no_progress)
+    # at the motor it would take 0.9 % off the link's inertia: g / k is 1 %
+    off = errors(found, plant)
+    assert abs(off["link_inertia"][0]) < 2e-3
+    assert max(abs(deviations) for _, deviations in off.values()) < 3.5
+    assert found.flexible.parameters.at("gravity_sine")[0] == pytest.approx(20.0, rel=5e-3)
+
+
 def test_a_torque_that_is_taken_for_straight_between_samples_biases_the_joint(monkeypatch):
     plant = Plant.with_mode(40.0)
     signals = recorded(plant, Run(highest_hz=60.0, seconds=4.0))
