@@ -29,7 +29,7 @@ from .extension.reserved import reserved
 from .extension.result import Extension
 from .identification.admission import admit, known_log
 from .identification.doubts import contradictions
-from .identification.identify import Fit, Progress, fit, judge, no_progress
+from .identification.identify import Fit, Progress, fit, judge, no_progress, refitted
 from .identification.options import REPORT, IdentifyOptions, parse_diagnose_options, parse_options
 from .identification.reference import PRIOR, Reference, reference_from_prior
 from .identification.reference_score import score_reference
@@ -131,13 +131,13 @@ class _Settled:
 def _settle(
     task: _Task, tell: Progress, reference: Reference | None = None, *, doubted: bool = False
 ) -> _Settled:
-    """Fit once, correct what robot and logs disagree in, and fit again where there is any such thing.
+    """Fit by least squares, correct what robot and logs disagree in, then fit as asked.
 
-    A wrong unit, say, may let the first fit fail, or hide the controller that is to be simulated.
+    A wrong unit may hide a controller that is to be simulated.
     """
     problem, logs = _prepare(task, tell, reference), task.asked.logs
     try:
-        first = fit(problem, task.options, tell)
+        first = fit(problem, task.options.least_squares, tell)
     except (OptionError, SolverError) as error:
         conflicts, corrected = _corrected(task, problem, tell, reference, doubted=True)
         if corrected is None:
@@ -145,7 +145,7 @@ def _settle(
         return corrected
     doubted = doubted or is_doubtful(first, logs)
     conflicts, corrected = _corrected(task, problem, tell, reference, doubted=doubted)
-    return corrected or _Settled(task, first, conflicts)
+    return corrected or _Settled(task, refitted(problem, task.options, tell, first), conflicts)
 
 
 def _corrected(

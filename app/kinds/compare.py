@@ -30,7 +30,7 @@ class Compare(Identify):
         ),
         help="Fit the same logs by several estimators, and compare parameters, errors and cost.",
         commands=(
-            "compare yumi-left examples/yumi/log.csv",
+            'compare yumi-left examples/yumi/log.csv --set \'compare=["sdp", "iv", "didim"]\'',
             'compare yumi-left examples/yumi/log.csv --set \'compare=["sdp", "iv"]\' --json',
         ),
         summary="Compare estimators on the first example log",

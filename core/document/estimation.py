@@ -7,6 +7,7 @@ import numpy as np
 from ..arrays import JointVector
 from ..estimate.kalman.innovations import Innovations, Track
 from ..estimate.methods.registry import ESTIMATORS
+from ..estimate.simulator import Guide
 from ..identification.choice import BIASED
 from ..identification.doubts import LEAST_SQUARES
 from ..identification.result import Identification
@@ -72,11 +73,7 @@ def _statements(found: Identification) -> Iterator[str]:
     method, ended = ESTIMATORS[found.estimator], found.convergence
     chosen = "" if found.choice is None else f" It was chosen because {found.choice.reason}."
     yield f"Estimator: {method.title} ({found.estimator}).{chosen}"
-    for number, check in enumerate(found.guide.controllers, start=1):
-        yield _recognised(number, check)
-    for number, other in enumerate(found.guide.periods, start=1):
-        told = f"The motion of log {number} repeats every {other.seconds:.6g} s"
-        yield f"{told}; each period is held beside the others."
+    yield from _guided(found.guide)
     if method.iterative:
         steps = len(ended.steps)
         went = "simulated" if found.innovations is None else "filtered"
@@ -88,6 +85,15 @@ def _statements(found: Identification) -> Iterator[str]:
         yield _difference(found.endogeneity)
     if found.estimator in LEAST_SQUARES:
         yield from _attenuated(found.attenuation.missed)
+
+
+def _guided(guide: Guide) -> Iterator[str]:
+    """Say what told of the motion beside the measured one."""
+    for number, check in enumerate(guide.controllers, start=1):
+        yield _recognised(number, check)
+    for number, other in enumerate(guide.periods, start=1):
+        told = f"The motion of log {number} repeats every {other.seconds:.6g} s"
+        yield f"{told}; each period is held beside the others."
 
 
 def _recognised(number: int, check: ControllerCheck) -> str:

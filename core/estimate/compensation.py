@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays import JointVector, Matrix
+from ..arrays import JointVector, Matrix, SquareMatrix
 from ..errors import ExcitationError
-from .system import LeastSquares, System, solved_by
+from .system import RANK_TOLERANCE, LeastSquares, System, column_scale
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,9 +32,7 @@ class Compensated(LeastSquares):
         """
         plain = super().system(whole, rows, noise)
         added = np.tensordot(noise**-2.0, self.products, axes=1)
-        half = solved_by(plain.triangle.T, added)
-        share = solved_by(plain.triangle.T, half.T)
-        values, vectors = np.linalg.eigh(0.5 * (share + share.T))
+        values, vectors = np.linalg.eigh(_share(plain.triangle, added))
         if values[-1] >= 1.0:
             raise ExcitationError(
                 "noise exceeds excitation: some combination of the parameters shows less than noise of the "
@@ -51,3 +49,13 @@ class Compensated(LeastSquares):
             criterion=self,
         )
         return replace(answer, rest=plain.cost(answer.solved()))
+
+
+def _share(triangle: Matrix, added: SquareMatrix) -> SquareMatrix:
+    """Give R'^-1 C R^-1 in the directions that the columns show at all; the prior decides on all others."""
+    scale = column_scale(triangle)
+    left, sizes, right = np.linalg.svd(triangle / scale)
+    shown = sizes > RANK_TOLERANCE * sizes[0]
+    turned = left[:, shown] / sizes[shown] @ right[shown] / scale
+    share = turned @ added @ turned.T
+    return np.asarray(0.5 * (share + share.T))

@@ -151,6 +151,7 @@ class EstimateOptions:
             robust=self.robust and method.row_weights,
             simulation=self.simulation.acting_on(method),
             iteration=self.iteration if method.iterative else plain.iteration,
+            kalman=self.kalman if isinstance(method, KalmanFilter) else plain.kalman,
         )
 
     @property
@@ -210,11 +211,12 @@ class EstimateOptions:
         controlled = (simulation.source, simulation.bandwidth_hz) != (usual.source, usual.bandwidth_hz)
         simulated = (simulation.bandwidth_hz, simulation.substeps) != (usual.bandwidth_hz, usual.substeps)
         free = method.iterative and not method.sources
+        plain = replace(simulation, controller=usual.controller)
         options: Mapping[str, tuple[bool, bool]] = {
             "bounds": (method.feasible, self.bounds != Bounds()),
             "entropy": (method.feasible, self.entropy > 0.0),
             "robust": (method.row_weights, self.robust),
-            "simulation": (method.iterative, simulation != usual),
+            "simulation": (method.iterative, plain != usual),
             "simulation.from and simulation.bandwidth_hz": (not free, controlled),
             "simulation.bandwidth_hz and simulation.substeps": (simulation.source != PERIODS, simulated),
             "simulation.window_seconds": (free, simulation.window_seconds != usual.window_seconds),

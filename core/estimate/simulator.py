@@ -117,6 +117,7 @@ class Simulator:
         if output == WINDOWS:
             seconds, substeps = self.guide.options.window_seconds, self.guide.options.substeps
             silent = [motion.segments[0].unmeasured for motion in self.motions]
-            return FreeWindows(base, changes, mechanisms, seconds, silent, substeps)
+            held = [motion.recipe.held for motion in self.motions]
+            return FreeWindows(base, changes, mechanisms, seconds, silent, held, substeps)
         runs = [[own.of(one) for one in mechanisms] for own in self.simulated(at)]
         return Sensitivities(base, changes, runs, of_torque=output == TORQUE)

@@ -125,7 +125,8 @@ class Instrumental:
         base = len(whole) // 2
         triangle, target = _zero_unexcited(whole[:base, base:-1]), whole[:base, -1]
         carried = solved_by(whole[:base, :base], triangle).T
-        system = System(triangle, target, 0.0, rows, noise, criterion=self, carried=carried)
+        turned = np.asarray(np.linalg.qr(np.column_stack([triangle, target]), mode="r"))  # solvers like zeros
+        system = System(turned[:, :-1], turned[:, -1], 0.0, rows, noise, criterion=self, carried=carried)
         left = whole[base:, -1] - whole[base:, base:-1] @ system.solved()
         return replace(system, rest=float(left @ left))
 

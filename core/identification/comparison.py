@@ -16,13 +16,11 @@ from ..estimate.problem import Problem
 from ..simulation.mechanism import mechanism_of
 from ..simulation.multistep import MultiStep, predict_motion
 from .identify import fit, judge, no_progress
-from .options import IdentifyOptions, parse_options
+from .options import BEGINNING, IdentifyOptions, parse_options
 from .result import Identification
 
 COMPARE = "compare"
 """Option: the names of the estimators."""
-BEGINNING = "sdp"
-"""Estimator by which robot and logs are held against each other before any is compared."""
 ALL = tuple(name for name in ESTIMATORS if name != AUTO)
 """The estimators that are compared unless some are named: a choice among them is none."""
 _ACTS: Mapping[str, Callable[[Estimator], bool]] = {
@@ -104,9 +102,7 @@ def read_options(options: Mapping[str, object]) -> IdentifyOptions:
 def options_for(options: Mapping[str, object], name: str) -> dict[str, object]:
     """Give a comparison's options for one estimator: without those that have no effect on it."""
     method = ESTIMATORS[name]
-    idle = {COMPARE, *(key for key, acts in _ACTS.items() if not acts(method))}
-    if _other_periods(options) and PERIODS not in method.sources:
-        idle.add("simulation.from")
+    idle = {COMPARE, *(key for key, acts in _ACTS.items() if not acts(method)), *_unusable(options, method)}
     own = {
         key: {inner: part for inner, part in value.items() if f"{key}.{inner}" not in idle}
         if isinstance(value, Mapping)
@@ -115,6 +111,11 @@ def options_for(options: Mapping[str, object], name: str) -> dict[str, object]:
         if key not in idle
     }
     return own | {"estimator": name}
+
+
+def _unusable(options: Mapping[str, object], method: Estimator) -> set[str]:
+    """Give the source of motion where the estimator cannot use it and others may."""
+    return {"simulation.from"} if _other_periods(options) and PERIODS not in method.sources else set()
 
 
 def _other_periods(options: Mapping[str, object]) -> bool:

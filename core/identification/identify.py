@@ -86,6 +86,11 @@ def fit(
     return replace(found, choice=choice)
 
 
+def refitted(problem: Problem, options: IdentifyOptions, tell: Progress, least: Fit) -> Fit:
+    """Fit as asked what least squares was fitted to: that is the fit where no iteration is asked for."""
+    return fit(problem, options, tell, least.observation) if options.estimate.method.iterative else least
+
+
 def _fit(problem: Problem, options: IdentifyOptions, tell: Progress, observation: Observation) -> Fit:
     """Fit by the estimator that the options name."""
     tell("estimate", 0.6)

@@ -4,7 +4,7 @@ The options of several packages are read here; each package keeps its own as a f
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
 import numpy as np
@@ -22,6 +22,8 @@ DIAGNOSIS_HOLD_OUT = HoldOut(fraction=0.25, blocks=40)
 """A diagnosis needs many held-out blocks: the interval of a gain is drawn from them."""
 
 APPLY, REPORT = "apply", "report"
+BEGINNING = "sdp"
+"""Estimator by which robot and logs are held against each other before any other fits them."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,13 @@ class IdentifyOptions:
     """What a diagnosis compares the logs with: a job's name or ``prior``; None to identify everything
     anew."""
     given: Mapping[str, object] = field(default_factory=dict)
+
+    @property
+    def least_squares(self) -> "IdentifyOptions":
+        """Give the same by the least squares that an iteration begins at; itself where nothing iterates."""
+        if not self.estimate.method.iterative:
+            return self
+        return replace(self, estimate=self.estimate.by(BEGINNING))
 
     def __post_init__(self) -> None:
         """Refuse what cannot be done with a correction."""

@@ -26,7 +26,7 @@ class Attenuation:
     """Hold, per joint, what noise of positions makes of its inertia, the mean over its positions."""
 
     missed: JointVector
-    """Share of the inertia that least squares misses; NaN where no inertia is modelled."""
+    """Share of the inertia that least squares misses; NaN where none is modelled, or the joint stands."""
     noise: JointVector
     """RMS noise of its positions, rad or m, the largest of all logs."""
     cutoff_hz: float
@@ -61,8 +61,9 @@ def attenuation(
             for joint, (rows, place) in enumerate(zip(plan.rows_of, plan.columns_of, strict=True))
         ]
     ).T
-    shares = np.divide(lost, inertias, out=np.full(len(inertias), np.nan), where=inertias > 0.0)
     known = [motion.recipe for motion in motions]
+    moves = ~np.all([recipe.held for recipe in known], axis=0)
+    shares = np.divide(lost, inertias, out=np.full(len(inertias), np.nan), where=moves & (inertias > 0.0))
     return Attenuation(
         shares,
         np.max([recipe.position_noise for recipe in known], axis=0),

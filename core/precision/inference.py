@@ -49,10 +49,11 @@ class Inference:
     def standard_deviation(self) -> Vector:
         """Give one standard deviation per base parameter.
 
-        Infinite where the motion leaves the parameter open.
+        Infinite where the motion leaves the parameter open, or so nearly that rounding hides its variance.
         """
-        deviation = np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
-        return np.where(self.open_share > 1e-6, np.inf, deviation)
+        variance = np.diag(self.covariance)
+        known = (self.open_share <= 1e-6) & (variance > 0.0)
+        return np.sqrt(np.where(known, variance, np.inf))
 
     @property
     def root(self) -> Matrix:

@@ -20,10 +20,15 @@ _LOWEST = 1e-3
 
 
 def acceleration_variance(motions: Sequence[Motion]) -> JointVector:
-    """Give the variance of the noise of filtered accelerations over all motions together, (rad/s2)2."""
+    """Give the variance of the noise of filtered accelerations over all motions together, (rad/s2)2.
+
+    A joint that stands all the time has no acceleration, and no noise of one.
+    """
     instants = np.array([motion.kept for motion in motions])
-    known = np.array([_passed(motion) * motion.recipe.position_noise**2 for motion in motions])
-    return np.asarray(instants / instants.sum() @ known)
+    recipes = [motion.recipe for motion in motions]
+    noise = np.array([np.where(recipe.held, 0.0, recipe.position_noise) for recipe in recipes])
+    passed = np.array([_passed(motion) for motion in motions])
+    return np.asarray((instants / instants.sum() * passed) @ noise**2)
 
 
 def _passed(motion: Motion) -> float:

@@ -104,22 +104,24 @@ def other_periods(motion: Motion, robot: RobotModel) -> OtherPeriods:
     segment = max(motion.segments, key=lambda one: one.samples)
     position = segment.measured_positions(0, min(segment.samples, MOST_SAMPLES))
     apart = _apart(_scaled(position, robot))
-    begin = int(np.argmax(apart > LEAVES))  # 0 where the motion never goes away
-    returns = _minima(apart[begin:]) if len(apart) and apart[begin] > LEAVES else np.array([], dtype=int)
+    away = apart > LEAVES
+    begin = int(np.argmax(away)) if away.any() else len(apart)
+    returns = _minima(apart[begin:])
     found = [begin + int(place) + 1 for place in returns if apart[begin + place] <= REPEATS]
-    if not found:
-        nearest = begin + int(returns[np.argmin(apart[begin + returns])]) if len(returns) else None
-        raise LogError(
-            "the motion does not repeat, so that no period can stand for another",
-            evidence={
-                "log": motion.log.name,
-                "nearest_period_s": None if nearest is None else round((nearest + 1) / segment.rate_hz, 3),
-                "difference_percent": None if nearest is None else round(100.0 * float(apart[nearest]), 1),
-                "allowed_percent": 100.0 * REPEATS,
-            },
-            remedy=f"record at least {SEVERAL} periods of one motion, or simulate by replay",
-        )
-    return OtherPeriods(motion, _refined(apart, found[0], segment.samples))
+    if found:
+        return OtherPeriods(motion, _refined(apart, found[0], segment.samples))
+    nearest = {}
+    if len(returns):
+        place = begin + int(returns[np.argmin(apart[begin + returns])])
+        nearest = {
+            "nearest_period_s": round((place + 1) / segment.rate_hz, 3),
+            "difference_percent": round(100.0 * float(apart[place]), 1),
+        }
+    raise LogError(
+        "the motion does not repeat, so that no period can stand for another",
+        evidence={"log": motion.log.name, **nearest, "allowed_percent": 100.0 * REPEATS},
+        remedy=f"record at least {SEVERAL} periods of one motion, or simulate by replay",
+    )
 
 
 def _scaled(position: JointSeries, robot: RobotModel) -> JointSeries:

@@ -9,7 +9,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from ..arrays import JointVector, Mask
+from ..arrays import JointMarks, JointVector, Mask
 from ..errors import OptionError
 from ..log.model import JointLog
 from ..robot.joint_units import largest_of_kind
@@ -117,6 +117,11 @@ class Recipe:
     """RMS of the white noise of every joint's positions (rad or m)."""
     reason: str
     """Why these cut-offs, in one sentence."""
+
+    @property
+    def held(self) -> JointMarks:
+        """Mark the joints that stand all the time: what their positions show beside it is noise."""
+        return np.asarray(self.rms_speed <= self.still_speed)
 
 
 # What was read off a log is not read off it again.

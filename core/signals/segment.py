@@ -157,6 +157,9 @@ class Segment:
         smooth = oaconvolve(padded, self.low_pass[:, None], mode="valid", axes=0)
         velocity = differentiate(smooth, self.rate_hz)
         acceleration = differentiate(velocity, self.rate_hz)
+        still = self.recipe.held & (np.abs(velocity) <= self.recipe.still_speed)
+        velocity[still] = 0.0
+        acceleration[still[REACH:-REACH]] = 0.0
         state = MotionState(smooth[2 * REACH : -2 * REACH], velocity[REACH:-REACH], acceleration)
         inner = slice(begin - left, len(torque) - (right - end))
         unknown = maximum_filter1d(bridge, 2 * self.reach + 1, mode="constant") if bridge.any() else bridge

@@ -6,12 +6,12 @@ no function of that state: what depends on the motion before, and what only the 
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
-from ..arrays import JointSeries, Parameters, Weights
+from ..arrays import JointMarks, JointSeries, Parameters, Weights
 from ..dynamics.model import DynamicModel
 from ..dynamics.term import Term
 from ..dynamics.terms.coulomb import Coulomb
@@ -33,6 +33,8 @@ from .inverse import bodies_of, columns
 NEGLIGIBLE = 1e-6
 """A friction that lies below zero by less than this, times the largest one or 1 N m (N), is zero within the
 tolerance of a programme (1e-7, scaled)."""
+HOLDING = 1e9
+"""Friction (N m or N) that no drive overcomes."""
 
 Parts = list[tuple[Term, Weights]]
 
@@ -102,6 +104,18 @@ class Mechanism:
     def mass_matrices(self, position: JointSeries) -> np.ndarray:
         """Give the mass matrix (kg m2), rotors included, for every row of positions; of `bodies`."""
         return np.asarray(forward.mass_matrices(self.bodies, columns(position)) + self.inertia)
+
+    def holding(self, joints: JointMarks) -> "Mechanism":
+        """Give the same with joints that nothing moves: friction holds them against any torque."""
+        if not joints.any():
+            return self
+        rows = np.flatnonzero(joints)
+        free = ~np.isin(self.frictions, rows)
+        frictions = np.concatenate([rows, self.frictions[free]])
+        order = np.argsort(frictions)
+        weights = np.vstack([np.eye(self.joints)[rows], self.weights[free]])
+        levels = np.concatenate([np.full(len(rows), HOLDING), self.levels[free]])
+        return replace(self, frictions=frictions[order], weights=weights[order], levels=levels[order])
 
     def torque(self, state: MotionState) -> JointSeries:
         """Predict the torque (N m or N) of a motion, as `DynamicModel.torque` does but compiled."""

@@ -107,3 +107,10 @@ def test_another_study_is_chosen_and_the_address_tells_which(look, service, pair
     page.get_by_role("button", name="Swap").click()
     page.locator(".compared").wait_for()
     assert page.url.endswith(f"left={again}&right={pair[0]}")
+
+
+def test_a_study_that_cannot_be_compared_is_said_so(look, service, pair):
+    page = look(service).open(f"/compare?left=0a1b2c3d-of-nothing&right={pair[1]}")
+    page.get_by_text("has no parameters to compare").wait_for()
+    page.locator(".compared").wait_for()
+    assert "0a1b2c3d" not in page.url

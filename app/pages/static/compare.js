@@ -23,6 +23,7 @@ async function start() {
   }
   const asked = new URLSearchParams(location.search);
   const chosen = { left: asked.get("left") ?? asked.get("first"), right: asked.get("right") };
+  const missing = Object.values(chosen).filter((id) => id && !known(id));
   chosen.left = known(chosen.left) ?? jobs.find((job) => job.id !== chosen.right).id;
   chosen.right = known(chosen.right) ?? alike(jobs.find((job) => job.id === chosen.left)).id;
   const selects = SIDES.map((side) => {
@@ -33,7 +34,8 @@ async function start() {
   const swap = element("button", { type: "button", class: "quiet", on: { click: () => { [chosen.left, chosen.right] = [chosen.right, chosen.left]; show(); } } }, "Swap");
   const result = element("div", { "aria-live": "polite" });
   fill(container, element("section", { class: "card choose" },
-    SIDES.map((side, index) => element("div", { class: "field" }, element("label", { for: `choose-${side}` }, element("i", { class: `swatch trace-${index + 1}`, "aria-hidden": "true" }), index ? "Right study" : "Left study"), selects[index])), swap), result);
+    SIDES.map((side, index) => element("div", { class: "field" }, element("label", { for: `choose-${side}` }, element("i", { class: `swatch trace-${index + 1}`, "aria-hidden": "true" }), index ? "Right study" : "Left study"), selects[index])), swap),
+    missing.map((id) => element("p", { class: "notice" }, `The study ${short(id)} has no parameters to compare: it is not finished, of a kind without them, or deleted. Another one is shown.`)), result);
   await show();
 
   async function show() {

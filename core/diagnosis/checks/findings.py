@@ -17,6 +17,7 @@ from ..search.residuals import residual
 from ..search.state import SearchState
 from ..thresholds.checks import CONFIDENCE
 from .alternatives import Comparison
+from .command import command_evidence
 from .confidence import confidence, predictors
 from .figure import curve
 from .gain import gain
@@ -60,7 +61,11 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
         predictors=evidence,
         p_value=float(np.exp(log_p)),
         explained_fraction=_fraction(left, dataset.usable & ~dataset.held_out[:, None], joints),
-        evidence=(*_evidence(own, log_p, member.trials), *_on_holdout(fitter, chosen, index, own)),
+        evidence=(
+            *_evidence(own, log_p, member.trials),
+            *_on_holdout(fitter, chosen, index, own),
+            *command_evidence(dataset.motions, cause.id, member.site),
+        ),
         ambiguous_with=own.ambiguous,
         refuted=own.refuted,
         gain=measured,

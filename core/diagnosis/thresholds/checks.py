@@ -122,5 +122,24 @@ class Motion:
     worse."""
 
 
+@dataclass(frozen=True)
+class Command:
+    """Hold torque channels against the command of the drives. All are set by hand."""
+
+    most_samples: int = 60_000
+    """Samples that are looked at: a minute at 1 kHz tells a delay to microseconds."""
+    longest: float = 0.1
+    """Largest delay that is looked for, s: a longer one is no small error of a channel."""
+    same: float = 1e-6
+    """Share of the torque that is left where the torque channel is the command itself."""
+    steps: int = 8
+    """Steps of the fit, which is nearly linear."""
+    least_joints: int = 3
+    """Joints of which the middle gain is that of sound channels."""
+    blocks: int = 20
+    """Contiguous blocks from whose scatter deviations are taken."""
+
+
+COMMAND = Command()
 RESIDUAL, SEPARATION, AT_REST, MOTION = Residual(), Separation(), AtRest(), Motion()
 ALTERNATIVES, VERDICT, UNNAMED, CONFIDENCE = Alternatives(), Verdict(), Unnamed(), Confidence()

@@ -92,4 +92,5 @@ def filter_of_segment(start: FilterStart, motion: Motion, segment: Segment) -> S
     """Prepare the filter of a gap-free part of a motion."""
     step = 1.0 / segment.rate_hz
     clock = Clock(step, steps_between(step, start.substeps))
-    return filter_of(start.base, start.standard, start.variance(motion), clock, unscented=start.unscented)
+    known, held = start.variance(motion), motion.recipe.held
+    return filter_of(start.base, start.standard, known, clock, held=held, unscented=start.unscented)

@@ -55,6 +55,17 @@ class FilterStart:
         upper = np.linalg.qr(solve_triangular(known, np.eye(len(known)), trans="T"), mode="r")
         return np.where(idle | idle[:, None], 0.0, np.asarray(upper) * widest)
 
+    @property
+    def separates(self) -> bool:
+        """Tell whether the motion says more of every combination of parameters than the filter begins with.
+
+        Nothing is asked of parameters that make no torque: they do not move.
+        """
+        norms = np.linalg.norm(self.system.triangle, axis=0)
+        shown = self.system.triangle[:, norms > 0.0] / norms[norms > 0.0]
+        least = np.linalg.norm(self.system.target) * np.linalg.svd(shown, compute_uv=False).min(initial=1.0)
+        return bool(least > self.options.start_scale)
+
     def variance(self, motion: Motion) -> JointVector:
         """Give the variance of a motion's measured positions, rad2 or m2."""
         return np.asarray(self.options.position_noise**2 * position_variance(motion))

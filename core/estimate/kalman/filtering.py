@@ -14,7 +14,7 @@ import numpy as np
 from scipy.linalg import solve_triangular
 
 from ...arrays import BaseParameters, BlockKey, JointVector, Mask, Matrix, SquareMatrix, Vector
-from ...errors import SolverError
+from ...errors import ExcitationError, SolverError
 from ...regressor.factor import Factor
 from ...signals.condition import Motion
 from ...simulation.filter.state_filter import FilterState, StateFilter
@@ -115,10 +115,21 @@ def follow(
     ------
     SolverError
         If parameters within their deviations are often no robot, or the filter diverges.
+    ExcitationError
+        If it diverges where the motion does not separate the parameters.
     """
     blocks: dict[BlockKey, Known] = {}
-    for known in _known(start, motions, held_out, drift):
-        blocks[known.key] = known.after(blocks[known.key]) if known.key in blocks else known
+    try:
+        for known in _known(start, motions, held_out, drift):
+            blocks[known.key] = known.after(blocks[known.key]) if known.key in blocks else known
+    except SolverError as error:
+        if start.separates:
+            raise
+        raise ExcitationError(
+            "the filter lost the robot, because the motion does not separate its parameters",
+            evidence=error.evidence,
+            remedy="record a motion in which every joint moves, or fit with sdp, which names what is open",
+        ) from error
     noise = np.max([np.sqrt(start.variance(motion)) for motion in motions], axis=0)
     found = Followed(start, noise, tuple(blocks.values()))
     whole = found.whole

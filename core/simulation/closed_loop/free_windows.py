@@ -46,6 +46,8 @@ class FreeWindows:
     unmeasured: Sequence[JointMarks]
     """Per motion, the joints whose torque was not measured: each robot's own along the measured motion drives
     it."""
+    held: Sequence[JointMarks]
+    """Per motion, the joints that stand all the time."""
     substeps: int | None = None
     """Steps of the simulation per sample; None for steps of `LONGEST_STEP` at most."""
 
@@ -61,18 +63,21 @@ class FreeWindows:
 
     def rows(self, number: int, motion: Tiled) -> Iterator[tuple[Tile, list[FilteredRows]]]:
         """Go through a motion tile by tile, and through each window by window."""
-        silent = self.unmeasured[number]
+        silent, held = self.unmeasured[number], self.held[number]
+        robots = [mechanism.holding(held) for mechanism in self.mechanisms]
         for tile in motion.tiles():
             time = np.asarray(tile.state.time)
             step = float(time[-1] - time[0]) / (len(time) - 1)
             length = max(FEWEST_INSTANTS, round(self.seconds / (tile.parallel.decimation * step)))
             begins = range(0, len(tile.time), length)
             table = np.concatenate(
-                [self._window(tile, silent, step, slice(at, at + length)) for at in begins]
+                [self._window(robots, tile, silent, step, slice(at, at + length)) for at in begins]
             )
             yield tile, [(table[:, joint], tile.usable[:, joint]) for joint in range(table.shape[1])]
 
-    def _window(self, tile: Tile, silent: JointMarks, step: float, chosen: slice) -> np.ndarray:
+    def _window(
+        self, robots: Sequence[Mechanism], tile: Tile, silent: JointMarks, step: float, chosen: slice
+    ) -> np.ndarray:
         """Give a window's rows: instants x joints x columns."""
         at = tile.first + tile.parallel.decimation * np.arange(len(tile.time))[chosen]
         whole, kept = slice(at[0], at[-1] + 1), at - at[0]
@@ -82,8 +87,8 @@ class FreeWindows:
             driving = np.where(silent, mechanism.torque(state), torque) if silent.any() else torque
             return np.asarray(self._moved(mechanism, step, start, driving)[kept])
 
-        own, *changed = (moved(mechanism, state) for mechanism in self.mechanisms)
-        pushed = [moved(self.mechanisms[0], start) for start in _pushed(state)]
+        own, *changed = (moved(mechanism, state) for mechanism in robots)
+        pushed = [moved(robots[0], start) for start in _pushed(state)]
         columns = np.stack([run - own for run in changed], axis=-1) / self.changes
         target = state.position[kept] - own + columns @ self.base
         free = np.stack([run - own for run in pushed], axis=-1) / PUSH

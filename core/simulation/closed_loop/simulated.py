@@ -94,7 +94,8 @@ class SimulatedMotion:
 
     def _begun(self, segment: Segment, tile: Tile) -> "_Lane":
         step = 1.0 / segment.rate_hz
-        loop = Loop(self.mechanism, self.source.law(step), step, steps_between(step, self.substeps))
+        mechanism = self.mechanism.holding(self.motion.recipe.held)
+        loop = Loop(mechanism, self.source.law(step), step, steps_between(step, self.substeps))
         none = Played(tile.state.at(slice(0)), tile.torque[:0])
         return _Lane(segment, self.source, loop, loop.start(tile.state), none).onwards(tile)
 

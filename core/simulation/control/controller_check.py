@@ -97,10 +97,7 @@ def check_controller(log: JointLog, declared: DeclaredController | None = None) 
         If the log has no reference or no command, or no structure's gains can be determined.
     """
     declared = declared or DeclaredController()
-    declared.check_joints(log.joints)
     record = _record(log, declared)
-    for channel in declared.channels:
-        _logged(record.rows, channel)
     idle = [joint + 1 for joint in range(log.joints) if record.size(joint) == 0.0]
     tried = [] if idle else [one for kind in KINDS for one in _structures(record, kind)]
     if not tried:
@@ -120,10 +117,11 @@ def check_controller(log: JointLog, declared: DeclaredController | None = None) 
 
 def _record(log: JointLog, declared: DeclaredController) -> _Record:
     """Read the longest stretch, and say what is the command in it."""
+    declared.check_joints(log.joints)
     start, stop = max(log.segments, key=lambda segment: segment[1] - segment[0])
     rows = log.source.rows(start, min(stop, start + MOST_ROWS))
     channel = "torque_ref" if rows.command is None else "command"
-    command = _logged(rows, channel)
+    command, _ = _logged(rows, channel), [_logged(rows, name) for name in declared.channels]
     if np.array_equal(_logged(rows, "position_ref"), rows.position):
         raise OptionError(
             "the gains of the controller cannot be determined from the log",
@@ -133,25 +131,27 @@ def _record(log: JointLog, declared: DeclaredController) -> _Record:
     kept = np.zeros(command.shape, dtype=bool)
     kept[2 * LONGEST_DELAY : -2 * LONGEST_DELAY] = True
     limits = np.array([_limit(rows, column) for column in command.T])
-    if declared.saturation:
-        limits = np.minimum(limits, declared.saturation)
+    limits = np.minimum(limits, declared.saturation or np.inf)
     kept &= np.abs(command) < limits
-    gain = declared.torque_gain
-    if channel == "command" and rows.torque is not None and not gain:
-        scale = np.sum(command**2, axis=0)
-        gain = tuple(map(float, np.sum(rows.torque * command, axis=0) / np.where(scale > 0.0, scale, 1.0)))
-        _check_gain(gain)
+    gain = declared.torque_gain or (_torque_gain(rows) if channel == "command" else ())
     saturation = tuple(map(float, limits)) if np.isfinite(limits).all() else ()
     return _Record(rows, 1.0 / log.rate_hz, command, channel, kept, declared, gain, saturation)
 
 
-def _check_gain(gain: tuple[float, ...]) -> None:
+def _torque_gain(rows: LogRows) -> tuple[float, ...]:
+    """Give the torque per unit of the command; nothing where no torque was logged."""
+    if rows.torque is None:
+        return ()
+    command = _logged(rows, "command")
+    scale = np.sum(command**2, axis=0)
+    gain = tuple(map(float, np.sum(rows.torque * command, axis=0) / np.where(scale > 0.0, scale, 1.0)))
     if min(gain) < 0.0:
         raise OptionError(
             "the torque falls where the command rises, so that it is not made of it",
             evidence={"torque_per_command": [round(value, 6) for value in gain]},
             remedy="map the command of the logged torque, with the same sign",
         )
+    return gain
 
 
 def _logged(rows: LogRows, channel: str) -> JointSeries:
@@ -176,7 +176,7 @@ def _limit(rows: LogRows, command: np.ndarray) -> float:
 
 def _structures(record: _Record, kind: Kind) -> Iterator[Tried]:
     """Fit every velocity rule, delay and feed-forward of one kind, without and with an integral."""
-    for blank in _blanks(record, kind):
+    for blank in filter(record.declared.allows, _blanks(record, kind)):
         searched = blank.velocity == "filtered" and record.declared.cutoff_hz is None
         rule = _with_cutoff(record, blank) if searched else blank
         found = (_fitted(record, rule, integral=integral) for integral in record.declared.integrals)
@@ -201,8 +201,7 @@ def _blanks(record: _Record, kind: Kind) -> Iterator[ControllerModel]:
             saturation=record.saturation,
             feed_forward=forward,
         )
-        if record.declared.allows(blank):
-            yield blank
+        yield blank
 
 
 def _with_cutoff(record: _Record, blank: ControllerModel) -> ControllerModel:

@@ -64,12 +64,18 @@ _FITS: Final[Mapping[Kind, Callable[[EquationRows, Vector], Gains | None]]] = {
 
 def fitted_gains(kind: Kind, columns: EquationRows, target: Vector, known: Known) -> Gains | None:
     """Fit those gains of one joint that are not known; None where they cannot be determined."""
-    free = [place for place, value in enumerate(known[: 2 + (columns.shape[1] > 2)]) if value is None]
-    if len(free) == 2 + (columns.shape[1] > 2):
+    used = known if columns.shape[1] > 2 else known[:2]
+    free = [place for place, value in enumerate(used) if value is None]
+    if len(free) == len(used):
         return _FITS[kind](columns, target)
     fixed = np.array([value or 0.0 for value in known])
-    if not free:
-        return _gains(fixed)
+    return _fitted_beside(kind, columns, target, fixed, free) if free else _gains(fixed)
+
+
+def _fitted_beside(
+    kind: Kind, columns: EquationRows, target: Vector, fixed: Vector, free: list[int]
+) -> Gains | None:
+    """Fit some gains beside others that are known."""
 
     def at(values: Vector) -> Vector:
         gains = fixed.copy()

@@ -31,22 +31,21 @@ class DeclaredController:
 
     def __post_init__(self) -> None:
         """Refuse what is part of no controller."""
-        lists = [values for values in (getattr(self, name) for name in LISTS) if values]
-        lengths = {len(values) for values in lists}
-        wrong = [
-            self.kind not in (None, *KINDS),
-            self.velocity not in (None, *RULES),
-            len(lengths) > 1 or not all(value >= 0.0 for value in chain(*lists)),
-            self.cutoff_hz is not None and (self.velocity != "filtered" or not self.cutoff_hz > 0.0),
-            abs(self.delay_samples or 0) > LONGEST_DELAY,
+        known = [
+            self.kind in (None, *KINDS),
+            self.velocity in (None, *RULES),
+            abs(self.delay_samples or 0) <= LONGEST_DELAY,
+            self.cutoff_hz is None or (self.velocity == "filtered" and self.cutoff_hz > 0.0),
+            min((*self.torque_gain, *self.saturation), default=1.0) > 0.0,
         ]
-        if any(wrong):
+        lists = [getattr(self, name) for name in LISTS if getattr(self, name)]
+        if not all(known) or len(set(map(len, lists))) > 1 or min(chain(*lists), default=0.0) < 0.0:
             raise OptionError(
                 "the description of the controller is not valid",
                 evidence={"pointer": "/options/controller", **dict(self.given())},
                 remedy=f"give a kind of {', '.join(KINDS)}, a velocity of {', '.join(RULES)}, in every list "
-                "one number of at least zero per joint, cutoff_hz for velocity filtered alone, and up to "
-                f"{LONGEST_DELAY} samples of delay",
+                "one number per joint (gains at least zero, the others above), cutoff_hz for filtered alone, "
+                f"and up to {LONGEST_DELAY} samples of delay",
             )
 
     def given(self) -> Iterator[tuple[str, object]]:

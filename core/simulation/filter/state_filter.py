@@ -8,8 +8,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...arrays import BaseParameters, JointSeries, JointVector, Matrix, Parameters, SquareMatrix, Vector
-from ...dynamics.model import DynamicModel
+from ...arrays import (
+    BaseParameters,
+    JointMarks,
+    JointSeries,
+    JointVector,
+    Matrix,
+    Parameters,
+    SquareMatrix,
+    Vector,
+)
 from ...errors import OptionError, SolverError
 from ...reduction.base import BaseModel
 from ..closed_loop.loop import not_compiled
@@ -138,9 +146,20 @@ class StateFilter:
 
 
 def filter_of(
-    base: BaseModel, standard: Parameters, variance: JointVector, clock: Clock, *, unscented: bool
+    base: BaseModel,
+    standard: Parameters,
+    variance: JointVector,
+    clock: Clock,
+    *,
+    held: JointMarks,
+    unscented: bool,
 ) -> StateFilter:
     """Prepare to follow the base parameters, each by the one standard parameter that is named after it.
+
+    Parameters
+    ----------
+    held
+        The joints that stand all the time.
 
     Raises
     ------
@@ -150,7 +169,7 @@ def filter_of(
     model, floored = base.model, np.array(standard, dtype=float)
     levels = np.array([parameter.symbol in _LEVELS for parameter in model.parameters])
     floored[levels] = np.maximum(floored[levels], kernel.LEAST_LEVEL)
-    mechanism = mechanism_of(model, floored)
+    mechanism = mechanism_of(model, floored).holding(held)
     left = not_compiled(mechanism)
     if left:
         raise OptionError(
@@ -159,18 +178,21 @@ def filter_of(
             remedy="leave these terms out, or fit with sdp",
         )
     origin = _numbers(mechanism)
-    slopes = [_slope(model, floored, column, origin) for column in base.kept]
+    size = np.maximum(np.abs(floored), 1.0)
+    slopes = [
+        _slope(
+            mechanism_of(model, floored + own * (np.arange(len(size)) == column)).holding(held), origin, own
+        )
+        for column, own in zip(base.kept, size[list(base.kept)], strict=True)
+    ]
     parameter, place = (np.ascontiguousarray(index) for index in np.nonzero(np.array(slopes)))
     tangent = (place, parameter, np.array(slopes)[parameter, place])
     return StateFilter(mechanism, base.base_of(floored), tangent, variance, clock, unscented)
 
 
-def _slope(model: DynamicModel, standard: Parameters, column: int, origin: Vector) -> Vector:
+def _slope(other: Mechanism, origin: Vector, size: float) -> Vector:
     """Give what a standard parameter changes of the mechanism's numbers, which it does in proportion."""
-    size = max(abs(standard[column]), 1.0)
-    other = standard.copy()
-    other[column] += size
-    slope = (_numbers(mechanism_of(model, other)) - origin) / size
+    slope = (_numbers(other) - origin) / size
     return np.where(np.abs(slope) > 1e-12, slope, 0.0)
 
 

@@ -181,7 +181,12 @@ PUBLISHED = {"M1": (94.8, 95.5), "FV1": (200.0, 211.0), "FC1": (19.8, 20.6), "OF
 # By replay errors of the model act on the output: clie's and cloe's values are off by up to 1 % and 5 %.
 @pytest.mark.parametrize(
     ("estimator", "source"),
-    [*product(("iv", "didim"), ("replay", "controller")), ("clie", "controller"), ("cloe", "controller")],
+    [
+        *product(("iv", "didim"), ("replay", "controller")),
+        ("iv", "periods"),
+        ("clie", "controller"),
+        ("cloe", "controller"),
+    ],
 )
 def test_a_measured_servo_axis_has_its_published_parameters(servo, estimator, source):
     robot, log = servo

@@ -13,6 +13,7 @@ from veritorque.core.simulation.closed_loop.sensitivities import Sensitivities
 from veritorque.core.simulation.closed_loop.simulated import SimulatedMotion
 from veritorque.core.simulation.mechanism import mechanism_of
 
+FREE = [np.zeros(3, dtype=bool)]
 CHANGE = 1e-3
 
 
@@ -81,7 +82,7 @@ def test_what_a_window_starts_from_does_not_count(arm, motion):
     changes = np.full(len(base.kept), CHANGE)
     robots = [machine, *changed(machine, base, changes)]
     windows = FreeWindows(
-        base.base_of(machine.parameters), changes, robots, seconds=0.3, unmeasured=[np.zeros(3, dtype=bool)]
+        base.base_of(machine.parameters), changes, robots, seconds=0.3, unmeasured=FREE, held=FREE
     )
     tile = next(iter(motion.tiles()))
 
@@ -112,7 +113,7 @@ def test_what_drives_a_joint_of_unmeasured_torque_itself_hardly_moves_it(arm, mo
     def shown(silent):
         marks = [np.arange(3) == silent]
         windows = FreeWindows(
-            base.base_of(machine.parameters), changes, robots, seconds=0.3, unmeasured=marks
+            base.base_of(machine.parameters), changes, robots, seconds=0.3, unmeasured=marks, held=FREE
         )
         return np.linalg.norm(stacked(windows, motion)[:, friction])
 

@@ -211,6 +211,8 @@ def test_a_wrong_gain_shows_in_the_command_whatever_is_fitted_beside_it():
         {"delay_samples": 3},
         {"kind": "state"},
         {"velocity": "guessed"},
+        {"torque_gain": (0.0,)},
+        {"saturation": (0.0,)},
     ],
 )
 def test_a_declaration_of_no_controller_is_refused(wrong):

@@ -22,7 +22,9 @@ def axle() -> tuple[StateFilter, StateFilter, int]:
     values = {"ZZ": 0.5, "FV": 2.0}
     standard = np.array([values.get(one.symbol, 0.0) for one in base.model.parameters])
     given = base, standard, np.array([NOISE**2]), Clock(STEP, 1)
-    extended, unscented = (filter_of(*given, unscented=both) for both in (False, True))
+    extended, unscented = (
+        filter_of(*given, held=np.zeros(1, dtype=bool), unscented=both) for both in (False, True)
+    )
     return extended, unscented, symbols.index("OFF")
 
 
@@ -66,7 +68,9 @@ def swinging(*, unscented: bool) -> tuple[StateFilter, FilterState, tuple[np.nda
     model = standard_model(planar_robot())
     truth, state = true_parameters(model), swing(2, rate_hz=1000.0, seconds=1.0)
     base = base_model(model)
-    own = filter_of(base, truth, np.full(2, 1e-10), Clock(1e-3, 1), unscented=unscented)
+    own = filter_of(
+        base, truth, np.full(2, 1e-10), Clock(1e-3, 1), held=np.zeros(2, dtype=bool), unscented=unscented
+    )
     mean = np.concatenate([1.01 * own.reference, state.position[0], state.velocity[0]])
     begun = own.started(mean, np.diag(0.02 * np.abs(own.reference)), np.full(2, 1e-2))
     noise = np.full((1000, 2), 0.1)
