@@ -17,10 +17,11 @@ from .judge import comparison, crossover_hz, held_out, impossible, known, not_se
 from .options import JointOptions, check_joint
 from .orders import RIGID, TIME_UNIT
 from .record import JointRecord, read_joint
-from .refined_iv import Fitted, Signals, Task, fit, residual
+from .refined_iv import Fitted, fit, residual
 from .result import FoundModel, JointModel, NotFound
 from .signals import ClosedLoop, closed_loop, loads_of, measured_signals, signals_of_link
 from .start import flexible_start, rigid_start
+from .task import Signals, Task
 
 LOWEST_HZ: Final = 0.16
 """Lowest crossover: 1 rad/s. It takes the place of the integral's pole at zero, which does not decay."""

@@ -13,7 +13,7 @@ from scipy.signal import coherence, csd, welch
 from ..arrays import Spectrum, Vector
 from .orders import TIME_UNIT
 from .record import JointRecord
-from .refined_iv import Model
+from .task import Model
 
 LONGEST: Final = 8192
 """Rows of a transform: a resolution of 0.12 Hz at 1 kHz, where the log is long enough."""

@@ -19,8 +19,8 @@ from ..simulation.control.controller_check import ControllerCheck
 from ..simulation.control.own_controller import controller_of
 from .orders import COULOMB, GRAVITY, OFFSET, TIME_UNIT, Quantity
 from .record import JointRecord
-from .refined_iv import Model, Signals
 from .responses import filtered, sampled
+from .task import Model, Signals
 
 
 def loads_of(record: JointRecord) -> tuple[Quantity, ...]:

@@ -12,8 +12,9 @@ import numpy as np
 from ..arrays import Vector
 from ..errors import ExcitationError, SolverError
 from .orders import FLEXIBLE, RIGID, TIME_UNIT
-from .refined_iv import Fitted, Model, Task, fit, residual
+from .refined_iv import Fitted, fit, residual
 from .responses import powers, transients
+from .task import Model, Task
 
 RIGID_CUTOFFS_HZ: Final = (0.5, 2.0, 8.0)
 """Cut-offs that the rigid model begins with: motions of joints lie within 10 Hz."""
