@@ -9,7 +9,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, cast
 
 from pydantic import BaseModel
 
@@ -104,6 +104,8 @@ class JobKind(ABC, Generic[Options]):
     """Whether it has the option `reference`, an earlier result that logs are compared with."""
     compares: ClassVar[bool] = False
     """Whether it fits several estimators, which the option `compare` names, or one."""
+    asks_joint: ClassVar[bool] = False
+    """Whether it is about one joint, which the option `joint` names; it then has options of its own."""
     result: ClassVar[type[BaseModel]]
     """Model of its result document."""
     words: ClassVar[Words]
@@ -155,6 +157,10 @@ class JobKind(ABC, Generic[Options]):
     def show(self, console: "Console", document: Mapping[str, Any]) -> None:
         """Print a result for a person."""
         console.print_json(data=document)
+
+    def read_example(self) -> Options:
+        """Read the options of the example request."""
+        return self.read_options(cast("Document", self.words.request["options"]))
 
     def require_logs(self, count: int) -> None:
         """Refuse a request that has logs where the kind takes none, or none where it takes some.

@@ -15,9 +15,10 @@ from .check import Check
 from .compare import Compare
 from .diagnose import Diagnose
 from .identify import Identify
+from .joint_model import JointModel
 from .kind import JobKind
 
-_LISTED: tuple[JobKind[Any], ...] = (Identify(), Diagnose(), Check(), Audit(), Compare())
+_LISTED: tuple[JobKind[Any], ...] = (Identify(), Diagnose(), Check(), Audit(), Compare(), JointModel())
 KINDS: Mapping[str, JobKind[Any]] = {kind.name: kind for kind in _LISTED}
 RESULT_DOCUMENT: Any = reduce(or_, (kind.result for kind in KINDS.values()))
 """The model of a result document of any kind."""

@@ -15,6 +15,8 @@ from string import Template
 from typing import Final
 
 from ...core.estimate.methods.registry import ESTIMATORS
+from ...core.joint_model.names import ESTIMATORS as JOINT_ESTIMATORS
+from ...core.joint_model.names import ORDER_NAMES
 from ...core.log.channels import CHANNELS, REFERENCE_WORDS
 from ..kinds.registry import KINDS
 from ..version import VERSION
@@ -96,11 +98,17 @@ def _tables() -> dict[str, str]:
             "takes_logs": kind.takes_logs,
             "takes_reference": kind.takes_reference,
             "compares": kind.compares,
+            "asks_joint": kind.asks_joint,
         }
         for kind in KINDS.values()
     ]
     estimators = [{"name": method.name, "title": method.title} for method in ESTIMATORS.values()]
-    tables = {"channels": _channels(), "analyses": {"kinds": kinds, "estimators": estimators}}
+    joint = {
+        "estimators": [{"name": name, "title": title} for name, title in JOINT_ESTIMATORS.items()],
+        "orders": [{"name": name, "title": f"{name} joint"} for name in reversed(ORDER_NAMES)],
+    }
+    analyses = {"kinds": kinds, "estimators": estimators, "joint": joint}
+    tables = {"channels": _channels(), "analyses": analyses}
     return {name: escape(json.dumps(table)) for name, table in tables.items()}
 
 

@@ -82,7 +82,7 @@ class Services:
             computing.start()
         inspector.prepare()
         for kind in KINDS.values():
-            kind.read_options({})  # loads what that needs, so that no request waits for it
+            kind.read_example()  # loads what reading options needs, so that no request waits for it
 
         def alive() -> bool:
             return computing is None or computing.alive

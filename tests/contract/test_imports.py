@@ -27,6 +27,7 @@ SKELETON = (
     "veritorque.core.estimator_comparison",
     "veritorque.core.log.model",
     "veritorque.core.regressor.kernel",
+    "veritorque.core.joint_identification",
     "veritorque.core.robot.model",
     "veritorque.core.robot_audit",
     "veritorque.core.setup_check",

@@ -61,7 +61,7 @@ def _drive(out, implicit, law, state, forward, place, rate, k, step, back) -> No
 
 
 @njit(inline="always")
-def _command(out, implicit, law, state, ahead, forward, place, rate, k, step) -> None:
+def command(out, implicit, law, state, ahead, forward, place, rate, k, step) -> None:
     """Write the torque that a sampled controller asks for at the sample `k`, and renew its memory."""
     for j in range(len(implicit)):
         q = state[POSITION, j]
@@ -196,7 +196,7 @@ def _ask(out, implicit, law, state, ahead, inputs, k, step, back, sampled, begin
     if not sampled:
         _drive(out, implicit, law, state, inputs[0], inputs[1], inputs[2], k, step, back)
     elif back == 0.0:
-        _command(out, implicit, law, state, ahead, inputs[0], inputs[1], inputs[2], k, step)
+        command(out, implicit, law, state, ahead, inputs[0], inputs[1], inputs[2], k, step)
     for j in range(len(implicit)):
         last, state[HELD, j] = state[HELD, j], out[j, 0]
         out[j, 0] = asked * out[j, 0] + (1.0 - asked) * last

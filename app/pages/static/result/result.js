@@ -8,6 +8,7 @@ import { COMPARED, showComparison } from "./estimators.js";
 import { showExcitation } from "./excitation.js";
 import { showFindings, showRemainder } from "./findings.js";
 import { showHeadline } from "./headline.js";
+import { JOINT, showJoint } from "./joint.js";
 import { showParameters } from "./parameters.js";
 import { CHECKED, showAgreement } from "./setup.js";
 import { showError } from "../base/problem.js";
@@ -43,6 +44,7 @@ const OWN = {
   check: { sections: CHECKED, headline: showAgreement },
   audit: { sections: AUDITED, headline: showAudit },
   compare: { sections: COMPARED, headline: showComparison },
+  joint_model: { sections: JOINT, headline: showJoint },
 };
 const DIAGNOSED = [
   ["findings", "Findings", showFindings],

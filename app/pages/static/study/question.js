@@ -5,7 +5,7 @@ import { element, fill } from "../base/dom.js";
 import { showError } from "../base/problem.js";
 import { ANALYSES, ago, plural } from "../base/words.js";
 
-const { kinds: KINDS, estimators: ESTIMATORS } = ANALYSES;
+const { kinds: KINDS, estimators: ESTIMATORS, joint: OF_JOINT } = ANALYSES;
 
 /**
  * Ask for the kind of analysis and its options.
@@ -15,7 +15,7 @@ const { kinds: KINDS, estimators: ESTIMATORS } = ANALYSES;
 export function askQuestion(container) {
   const known = { robot: null, logs: [] };
   let kind = KINDS[0];
-  const choices = { cutoff: "", fraction: "", estimator: ESTIMATORS[0].name, reference: "", compared: new Set(ESTIMATORS.map(({ name }) => name)) };
+  const choices = { cutoff: "", fraction: "", estimator: ESTIMATORS[0].name, reference: "", joint: "1", order: OF_JOINT.orders[0].name, by: OF_JOINT.estimators[0].name, compared: new Set(ESTIMATORS.map(({ name }) => name)) };
   const reference = element("div", {});
   const single = field(
     "Estimator",
@@ -24,6 +24,20 @@ export function askQuestion(container) {
     }),
   );
   const several = element("fieldset", { class: "choices" }, element("legend", {}, "Estimators"), ESTIMATORS.map(offer));
+  const filters = [
+    field("Filter cut-off, Hz", text("cutoff", "automatic"), "chosen from the bandwidth of the motion if empty"),
+    field("Held out for validation, %", text("fraction", "20"), "0 to 50 % of each log, in blocks"),
+  ];
+  const named = (list) => list.map(({ name, title }) => [name, `${title} (${name})`]);
+  const ofJoint = [
+    field("Joint", text("joint", "1"), "counted from 1; the others stand still in the log"),
+    field("Order", menu(OF_JOINT.orders.map(({ name, title }) => [name, title]), choices.order, (value) => {
+      choices.order = value;
+    })),
+    field("Estimator of the joint", menu(named(OF_JOINT.estimators), choices.by, (value) => {
+      choices.by = value;
+    }), "closed loop: the log holds the references of its controller"),
+  ];
   const missing = element("p", { class: "hint", role: "status" });
   const said = element("div", { class: "said", "aria-live": "polite" });
   const start = element("button", { type: "button", class: "primary large", on: { click: begin } }, "Start");
@@ -60,12 +74,8 @@ export function askQuestion(container) {
       element(
         "div",
         { class: "fields" },
-        field(
-          "Filter cut-off, Hz",
-          text("cutoff", "automatic"),
-          "chosen from the bandwidth of the motion if empty",
-        ),
-        field("Held out for validation, %", text("fraction", "20"), "0 to 50 % of each log, in blocks"),
+        filters,
+        ofJoint,
         several,
         single,
         reference,
@@ -125,8 +135,10 @@ export function askQuestion(container) {
           : "";
     missing.classList.toggle("wrong", odd !== undefined || Boolean(gainless));
     reference.hidden = !kind.takes_reference;
-    single.hidden = kind.compares;
+    single.hidden = kind.compares || kind.asks_joint;
     several.hidden = !kind.compares;
+    for (const one of filters) one.hidden = kind.asks_joint;
+    for (const one of ofJoint) one.hidden = !kind.asks_joint;
   }
 
   async function offerReferences() {
@@ -175,6 +187,7 @@ export function askQuestion(container) {
 
   function options() {
     const asked = {};
+    if (kind.asks_joint) return { joint: sent(choices.joint), order: choices.order, estimator: choices.by };
     if (choices.cutoff.trim()) asked.filter = { cutoff_hz: sent(choices.cutoff) };
     if (choices.fraction.trim())
       asked.validation = {

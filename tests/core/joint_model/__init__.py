@@ -1,0 +1,1 @@
+"""Test the identification of single joints on exact simulations and on a measured slide."""
