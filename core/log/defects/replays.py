@@ -1,7 +1,8 @@
 """Find blocks of rows whose efforts are those of earlier rows, one after the other: a buffer was sent again.
 
 Noise never repeats a sequence. A log without noise, or made of one period again and again, may do so
-throughout, and a coarse effort by chance: these are not judged.
+throughout, and a coarse effort by chance: these are not judged. Nor are blocks where the motion itself came
+back: the efforts of a controller that counts come back with it.
 """
 
 import numpy as np
@@ -14,6 +15,9 @@ from .repeats import Rows, joined
 from .runs import KEPT, is_no_chance
 from .stretch import STRETCH_ROWS, Facts, Stretch, count_text
 
+CAME_BACK = 0.01
+"""Distance of a joint from where it was, as a share of its way in between, up to which the motion came back.
+Periods of a measured servo axis differ by 1e-6 of its way. Set by hand."""
 FEWEST = FEWEST_FILLED
 """A shorter block, or one that repeats what stood so few rows before, may be a coarse effort's."""
 
@@ -23,6 +27,7 @@ class Replays:
 
     def __init__(self) -> None:
         self._keys = np.zeros(0, dtype=np.uint64)
+        self._positions = np.zeros((0, 0))
         self._blocks: list[tuple[int, int]] = []
         self._stamps: dict[int, float] = {}
         self._again = self._rows = 0
@@ -33,12 +38,17 @@ class Replays:
         self._effort = stretch.effort
         new = _keys(stretch.channels[self._effort][:, stretch.context :])
         keys = np.append(self._keys, new)
+        fresh = stretch.channels["position"][:, stretch.context :]
+        positions = np.hstack([self._positions.reshape(len(fresh), -1), fresh])
         lags = _lags(keys)[len(self._keys) :]
         edges = np.flatnonzero(np.diff(lags, prepend=-1, append=-1))
         first, time = stretch.first + stretch.context, stretch.time[stretch.context :]
         starts, stops = edges[:-1], edges[1:]
         long = (stops - starts > FEWEST) & (lags[starts] > FEWEST)
         for begin, stop in zip(starts[long].tolist(), stops[long].tolist(), strict=True):
+            known = len(self._keys)
+            if _came_back(positions, known + begin, known + stop, int(lags[begin])):
+                continue
             self._blocks.append((first + begin, first + stop))
             self._stamps[first + begin], self._stamps[first + stop] = (
                 float(time[begin]),
@@ -46,7 +56,7 @@ class Replays:
             )
         self._again += int(np.count_nonzero(lags > FEWEST))
         self._rows += len(new)
-        self._keys = keys[-STRETCH_ROWS:]
+        self._keys, self._positions = keys[-STRETCH_ROWS:], positions[:, -STRETCH_ROWS:]
 
     def rows(self) -> Rows:
         """Give the rows that were sent again."""
@@ -71,6 +81,14 @@ class Replays:
         )
         spans = tuple((self._stamps[begin], self._stamps[stop]) for begin, stop in longest)
         return [Defect("replayed_rows", self._effort, None, count, spans, statement)]
+
+
+def _came_back(positions: Series, begin: int, stop: int, lag: int) -> bool:
+    """Tell whether the motion about a block is that about the earlier one: what is sent again stands alone."""
+    first, last = max(begin - FEWEST, lag), min(stop + FEWEST, positions.shape[1])
+    own, earlier = positions[:, first:last], positions[:, first - lag : last - lag]
+    way = np.ptp(positions[:, begin - lag : stop], axis=1)
+    return last - first > stop - begin and bool(np.all(np.abs(own - earlier).max(axis=1) <= CAME_BACK * way))
 
 
 def _keys(efforts: Series) -> np.ndarray:

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from tests.core.log.test_defects import healthy, log_of
+from tests.tools import shared
+from veritorque.core.log.reader import log_from_arrays, read_log
 
 WHOLE = ((0, 5000),)
 
@@ -56,3 +58,21 @@ def test_a_coarse_torque_that_repeats_itself_by_chance_loses_no_row(levels):
     assert "replayed_rows" not in {
         defect.kind for defect in log_of(time, position, np.round(torque / step) * step).defects
     }
+
+
+def test_efforts_that_come_back_with_the_motion_were_measured():
+    time, _, torque = healthy()
+    turn = np.sin(2.0 * np.pi * np.arange(5000) / 1250)[:, None] * [1.0, 0.4]
+    drift = 1e-5 * np.sin(0.01 * np.arange(5000))[:, None]
+    torque[3000:3012] = torque[1750:1762]
+    assert log_of(time, turn + drift, torque).segments == WHOLE
+    torque[3000:3012] = torque[1800:1812]
+    assert log_of(time, turn + drift, torque).segments == ((0, 3000), (3012, 5000))
+
+
+@pytest.mark.parametrize("decimals", [4, 6])
+def test_a_measured_servo_axis_that_repeats_its_motion_loses_no_row(decimals):
+    log = read_log(shared("data/emps/runs/track.parquet"))
+    rows = log.source.rows(0, log.samples)
+    rounded = log_from_arrays("servo", rows.time, rows.position, np.round(rows.torque, decimals))
+    assert rounded.segments == log.segments
