@@ -84,7 +84,7 @@ class Replays:
 
 
 def _came_back(positions: Series, begin: int, stop: int, lag: int) -> bool:
-    """Tell whether the motion about a block is that about the earlier one: what is sent again stands alone."""
+    """Tell whether the motion about a block is that about the earlier one: what is sent again is alone."""
     first, last = max(begin - FEWEST, lag), min(stop + FEWEST, positions.shape[1])
     own, earlier = positions[:, first:last], positions[:, first - lag : last - lag]
     way = np.ptp(positions[:, begin - lag : stop], axis=1)
