@@ -82,6 +82,7 @@ class Innovations(Open):
     variance: Annotated[list[float], about("of what was not foreseen, over what was expected, per joint")]
     shortened: Annotated[float, about("share of samples at which parameters had to differ by less")]
     dispersion: Annotated[float, about("factor on variances by which blocks scatter more than expected")]
+    start_scale: Annotated[float, about("factor on the first fit's deviations with which the filter began")]
 
 
 class OverTime(Open):

@@ -17,6 +17,8 @@ SOURCES = (REPLAY, CONTROLLER, PERIODS)
 SOLVERS = ("clarabel", "cvxpy")
 _OF_LEAST_SQUARES = {"bounds", "entropy", "robust"}
 """Options that act on estimator sdp and not on all others."""
+LEAST_SCALE = 1e-3
+"""Smallest factor on what a Kalman filter assumes."""
 PULL = 0.02
 """Weight of the pull towards the prior, in units of chi^2 per squared scale. A parameter that lies one scale
 from the prior is pulled by a fiftieth of a deviation at most, however long the log; what the motion leaves
@@ -109,7 +111,7 @@ class KalmanOptions:
     def __post_init__(self) -> None:
         """Refuse noise that is none, and a start that nothing corrects or nothing tells of."""
         factors = (self.position_noise, self.torque_noise, self.start_scale)
-        if not all(1e-3 <= factor <= 1e3 for factor in factors) or not 0.0 <= self.drift <= 1.0:
+        if not all(LEAST_SCALE <= factor <= 1e3 for factor in factors) or not 0.0 <= self.drift <= 1.0:
             raise OptionError(
                 "the options of the Kalman filter are not valid",
                 evidence=vars(self),

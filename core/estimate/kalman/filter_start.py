@@ -4,7 +4,7 @@ The noise of positions is what cubics through five neighbours leave of them. Tha
 equations of simulated columns leave, in which noise of positions has little part.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import solve_triangular
@@ -13,7 +13,7 @@ from ...arrays import BaseParameters, JointVector, Parameters, SquareMatrix
 from ...reduction.base import BaseModel
 from ...signals.condition import Motion
 from ...signals.survey import survey_of
-from ..options import KalmanOptions
+from ..options import LEAST_SCALE, KalmanOptions
 from ..system import System
 
 LEAST_NOISE = 1e-9
@@ -54,6 +54,11 @@ class FilterStart:
         known = np.linalg.qr(rows, mode="r")
         upper = np.linalg.qr(solve_triangular(known, np.eye(len(known)), trans="T"), mode="r")
         return np.where(idle | idle[:, None], 0.0, np.asarray(upper) * widest)
+
+    def narrowed(self, share: float) -> "FilterStart":
+        """Give the same with parameters that begin a share as wide."""
+        scale = max(share * self.options.start_scale, LEAST_SCALE)
+        return replace(self, options=replace(self.options, start_scale=scale))
 
     @property
     def separates(self) -> bool:

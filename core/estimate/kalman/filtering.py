@@ -7,6 +7,7 @@ Held-out blocks and gaps are passed over: after them positions and velocities be
 """
 
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -25,6 +26,8 @@ from .innovations import Track
 MOST_SHORTENED = 0.01
 """Share of samples at which parameters may have to differ by less than their deviations, so that the mass
 matrix stays positive."""
+NARROWER = (1.0, 0.3, 0.1)
+"""Shares of `kalman.start_scale` with which a filter begins, one after the other until it follows."""
 DRIFT_SECONDS = 0.1
 """Parameters drift in steps that are so far apart, s."""
 _TOLERANCE = 1e-12
@@ -99,6 +102,28 @@ class Followed:
 
 
 def follow(
+    start: FilterStart,
+    motions: tuple[Motion, ...],
+    held_out: frozenset[BlockKey],
+    drift: Vector | None = None,
+) -> Followed:
+    """Filter as `filter_once` does, and again from a narrower start where the filter loses the robot.
+
+    What a start says of the parameters is in no equation, so that a narrower one takes nothing from them.
+
+    Raises
+    ------
+    SolverError, ExcitationError
+        If the narrowest start is too wide as well.
+    """
+    *wider, narrowest = (start.narrowed(share) for share in NARROWER)
+    for own in wider:
+        with suppress(SolverError):
+            return filter_once(own, motions, held_out, drift)
+    return filter_once(narrowest, motions, held_out, drift)
+
+
+def filter_once(
     start: FilterStart,
     motions: tuple[Motion, ...],
     held_out: frozenset[BlockKey],

@@ -53,6 +53,7 @@ class FollowedProblem:
             self.followed.innovation,
             whole.shortened / whole.samples,
             float(blocks.autocovariance(best)[0] / blocks.rows),
+            start.options.start_scale,
         )
 
     @property

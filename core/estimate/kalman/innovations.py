@@ -20,6 +20,8 @@ class Innovations:
     """Share of samples at which parameters had to differ by less, for the mass matrix to stay positive."""
     dispersion: float
     """Factor on the variance of the parameters by which blocks differ more than the filter expects."""
+    start_scale: float
+    """Factor on the deviations of the first fit with which it began: less than asked where that failed."""
 
 
 @dataclass(frozen=True, eq=False)
