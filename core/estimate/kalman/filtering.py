@@ -118,7 +118,7 @@ def follow(
     """
     *wider, narrowest = (start.narrowed(share) for share in NARROWER)
     for own in wider:
-        with suppress(SolverError):
+        with suppress(ExcitationError, SolverError):
             return filter_once(own, motions, held_out, drift)
     return filter_once(narrowest, motions, held_out, drift)
 

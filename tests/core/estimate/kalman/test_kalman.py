@@ -94,3 +94,15 @@ def test_assumptions_that_are_none_are_refused(kalman):
 def test_assumptions_of_a_filter_are_refused_where_nothing_is_filtered():
     with pytest.raises(OptionError, match="kalman would have no effect"):
         parse_options({"estimator": "sdp", "kalman": {"drift": 0.1}})
+
+
+def test_a_start_that_loses_the_robot_is_narrowed_and_gives_the_same_answer():
+    arm = scene("planar-2")
+    log, errors, begun = arm.log(0.1, 0.2, 0), [], []
+    for scale in (10.0, 300.0):
+        options = {"estimator": "ekf", "bootstrap": {"draws": 0}, "kalman": {"start_scale": scale}}
+        found = identify_in_full(IdentifyRequest(arm.world.arm.robot, (log,), options))
+        begun.append(found.innovations.start_scale)
+        errors.append(arm.error(found.estimate.base))
+    assert begun == [10.0, 30.0]
+    assert errors[1] == pytest.approx(errors[0], rel=0.1)
