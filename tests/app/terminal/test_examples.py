@@ -1,9 +1,11 @@
 """Every command shows an example in its help, and every example runs."""
 
+import json
 import logging
 import re
 import shlex
 import signal
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +15,7 @@ from typer.main import get_command
 from tests.app.http.test_server import listening_service
 from tests.app.stubs import StubExecutor
 from tests.app.terminal.conftest import ROOT, run
+from tests.core.joint_model.plant import Plant, Run, recorded, robot_of
 from tests.core.report.documents import diagnosed
 from veritorque.app.jobs import worker_process as process
 from veritorque.app.jobs.computation import Finished
@@ -21,6 +24,7 @@ from veritorque.app.terminal.backend.local import LocalBackend
 from veritorque.app.terminal.commands import serve
 from veritorque.app.terminal.main import COMMANDS
 from veritorque.app.terminal.output.exit_codes import Exit
+from veritorque.core.robot.writing import to_description
 
 
 def walk(command, path=()):
@@ -87,6 +91,15 @@ def names(tmp_path_factory):
         }
 
 
+@cache
+def sweep() -> str:
+    """Record a joint that moves alone under a controller whose references are logged."""
+    signals = recorded(Plant.with_mode(12.0), Run(highest_hz=18.0, seconds=6.0, noise=np.radians(1e-3)))
+    columns = [signals[name] for name in ("time", "position", "torque", "reference", "torque")]
+    rows = (",".join(f"{cell:.9g}" for cell in row) for row in np.column_stack(columns))
+    return "\n".join(["time,q_1,tau_1,position_ref_1,torque_ref_1", *rows])
+
+
 @pytest.fixture
 def prepared(monkeypatch, desk):
     """A folder in which a robot was exported and a service run: with a key and a backup; gives its name."""
@@ -98,6 +111,8 @@ def prepared(monkeypatch, desk):
     for name, prefix in (("positions.csv", "q"), ("torques.csv", "tau")):
         rows = [f"{0.01 * row},{np.sin(0.03 * row)}" for row in range(500)]
         Path(name).write_text("\n".join([f"time,{prefix}_1", *rows]))
+    Path("sweep.csv").write_text(sweep())
+    Path("robot.json").write_text(json.dumps(to_description(robot_of())))
     return {"3f2a91": run("keys", "list").stdout.split()[0]}
 
 
