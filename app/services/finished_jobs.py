@@ -75,7 +75,8 @@ def traces_of(context: RequestContext, job: JobRecord) -> Blob:
             "not-found",
             "the job kept no traces, only its result",
             evidence={"job": job.id},
-            remedy="delete the job and ask for it again: it was computed by an earlier version",
+            remedy="read its result: only identify and diagnose keep traces. If it is one of these, "
+            "it was computed by an earlier version, and has to be deleted and asked for again",
         )
     return Blob(job.traces_sha256, context.store.blobs)
 

@@ -183,6 +183,11 @@ def _doubts(found: JointModel) -> list[str]:
     asked = found.models[-1]
     if asked.failure is not None:
         doubts.append(f"{_sentence(asked.failure.cause)} Remedy: {asked.failure.remedy}.")
+    if asked.failure is not None and found.comparison is not None:
+        doubts.append(
+            f"A spring with a mode at {found.comparison['natural_hz']:.3g} Hz fits the log, but is not "
+            "confirmed: if there is one, the rigid model's inertia holds a part of it, beyond its deviation."
+        )
     return doubts
 
 

@@ -29,6 +29,8 @@ LEAVES: Final = 0.5
 """Share of the motion's RMS that a motion goes away before it can come back. Set by hand."""
 MOST_SAMPLES: Final = 200_000
 """Samples in which a period is looked for: it may last 100 s at 1 kHz. Set by hand."""
+NOISES: Final = 2.0
+"""Two positions differ by 1.4 times the noise of one, and seldom by more than this."""
 SEVERAL: Final = 2
 """Periods that a log has at least."""
 
@@ -109,6 +111,7 @@ def other_periods(motion: Motion, robot: RobotModel) -> OtherPeriods:
     returns = _minima(apart[begin:])
     found = [begin + int(place) + 1 for place in returns if apart[begin + place] <= REPEATS]
     if found:
+        _check_joints(motion, position, found[0])
         return OtherPeriods(motion, _refined(apart, found[0], segment.samples))
     nearest = {}
     if len(returns):
@@ -120,8 +123,26 @@ def other_periods(motion: Motion, robot: RobotModel) -> OtherPeriods:
     raise LogError(
         "the motion does not repeat, so that no period can stand for another",
         evidence={"log": motion.log.name, **nearest, "allowed_percent": 100.0 * REPEATS},
-        remedy=f"record at least {SEVERAL} periods of one motion, or simulate by replay",
+        remedy=f"record more than {SEVERAL} periods of one motion, or simulate by replay",
     )
+
+
+def _check_joints(motion: Motion, position: JointSeries, period: int) -> None:
+    """Refuse a period that is that of the largest motions only."""
+    apart = np.sqrt(np.mean((position[period:] - position[:-period]) ** 2, axis=0))
+    allowed = REPEATS * position.std(axis=0) + NOISES * motion.recipe.position_noise
+    others = np.flatnonzero((apart > allowed) & ~motion.recipe.held)
+    if len(others):
+        raise LogError(
+            "some joints do not repeat their motion with the others",
+            evidence={
+                "log": motion.log.name,
+                "joints": (others + 1).tolist(),
+                "period_s": round(period / motion.segments[0].rate_hz, 3),
+                "difference_rms": [float(f"{value:.3g}") for value in apart[others]],
+            },
+            remedy="let all joints repeat with one period, or simulate by replay",
+        )
 
 
 def _scaled(position: JointSeries, robot: RobotModel) -> JointSeries:

@@ -117,11 +117,11 @@ def check_controller(log: JointLog, declared: DeclaredController | None = None) 
 
 def _record(log: JointLog, declared: DeclaredController) -> _Record:
     """Read the longest stretch, and say what is the command in it."""
-    declared.check_joints(log.joints)
+    declared.check_joints(log.joints, log.rate_hz)
     start, stop = max(log.segments, key=lambda segment: segment[1] - segment[0])
     rows = log.source.rows(start, min(stop, start + MOST_ROWS))
     channel = "torque_ref" if rows.command is None else "command"
-    command, _ = _logged(rows, channel), [_logged(rows, name) for name in declared.channels]
+    command, _ = _logged(rows, channel), [_logged(rows, name, declared=True) for name in declared.channels]
     if np.array_equal(_logged(rows, "position_ref"), rows.position):
         raise OptionError(
             "the gains of the controller cannot be determined from the log",
@@ -133,7 +133,9 @@ def _record(log: JointLog, declared: DeclaredController) -> _Record:
     limits = np.array([_limit(rows, column) for column in command.T])
     limits = np.minimum(limits, declared.saturation or np.inf)
     kept &= np.abs(command) < limits
-    gain = declared.torque_gain or (_torque_gain(rows) if channel == "command" else ())
+    gain = _torque_gain(rows) if channel == "command" else ()
+    declared.check_log(np.abs(command).max(axis=0), np.array(gain), ACCEPTED)
+    gain = declared.torque_gain or gain
     saturation = tuple(map(float, limits)) if np.isfinite(limits).all() else ()
     return _Record(rows, 1.0 / log.rate_hz, command, channel, kept, declared, gain, saturation)
 
@@ -154,14 +156,16 @@ def _torque_gain(rows: LogRows) -> tuple[float, ...]:
     return gain
 
 
-def _logged(rows: LogRows, channel: str) -> JointSeries:
-    """Give a channel without which nothing can be recomputed."""
+def _logged(rows: LogRows, channel: str, *, declared: bool = False) -> JointSeries:
+    """Give a channel without which nothing can be recomputed, or nothing that was declared."""
     series: JointSeries | None = getattr(rows, channel)
     if series is None:
         raise OptionError(
             "the log does not show what its controller did",
             evidence={"missing": channel, "channels": list(rows.channels())},
-            remedy="log the reference of the position, and the command or the torque that was asked for",
+            remedy="log the reference of the position, and the command or the torque that was asked for"
+            if channel in ("position_ref", "command", "torque_ref") and not declared
+            else f"log {channel}, or leave what takes it out of the option controller",
         )
     return series
 

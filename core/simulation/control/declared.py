@@ -4,6 +4,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from itertools import chain
 
+import numpy as np
+
+from ...arrays import JointVector, Mask, Vector
 from ...errors import OptionError
 from .controller import KINDS, LONGEST_DELAY, RULES, ControllerModel
 
@@ -76,14 +79,20 @@ class DeclaredController:
         kp, kd, ki = (getattr(self, name)[joint] if getattr(self, name) else None for name in GAINS)
         return kp, kd, ki
 
-    def check_joints(self, joints: int) -> None:
-        """Refuse gains of another number of joints.
+    def check_joints(self, joints: int, rate_hz: float) -> None:
+        """Refuse gains of another number of joints, and a low pass that passes all.
 
         Raises
         ------
         OptionError
-            If a list has not one number per joint.
+            If a list has not one number per joint, or the cut-off is not below half the rate.
         """
+        if (self.cutoff_hz or 0.0) >= 0.5 * rate_hz:
+            raise OptionError(
+                "the cut-off of the declared controller is not below half the log's rate",
+                evidence={"pointer": "/options/controller/cutoff_hz", "rate_hz": rate_hz},
+                remedy="give a lower cut-off, or velocity backward, which has none",
+            )
         lengths = {name: len(getattr(self, name)) for name in LISTS if getattr(self, name)}
         if any(length != joints for length in lengths.values()):
             raise OptionError(
@@ -91,3 +100,40 @@ class DeclaredController:
                 evidence={"pointer": "/options/controller", "numbers": lengths, "joints": joints},
                 remedy="give one number per joint in every list",
             )
+
+    def check_log(self, largest: JointVector, gain: Vector, tolerance: float) -> None:
+        """Refuse a limit that the log's commands exceed, and a gain that its torques contradict.
+
+        Parameters
+        ----------
+        largest
+            The largest command of every joint.
+        gain
+            Torque per unit of the command, per joint; empty where the log does not tell.
+        tolerance
+            Share by which both may differ.
+
+        Raises
+        ------
+        OptionError
+            With what the log shows.
+        """
+        limit, declared = np.array(self.saturation), np.array(self.torque_gain)
+        if len(limit):
+            _refuse("saturation", limit, largest, largest > (1.0 + tolerance) * limit)
+        if len(declared) and len(gain):
+            _refuse("torque_gain", declared, gain, np.abs(gain - declared) > tolerance * declared)
+
+
+def _refuse(name: str, declared: Vector, found: Vector, wrong: Mask) -> None:
+    if wrong.any():
+        raise OptionError(
+            f"the declared {name} of the controller contradicts the log",
+            evidence={
+                "pointer": f"/options/controller/{name}",
+                "declared": declared.tolist(),
+                "in_the_log": [float(f"{value:.4g}") for value in found],
+                "joints": (np.flatnonzero(wrong) + 1).tolist(),
+            },
+            remedy=f"leave {name} out, and it is taken from the log; or check the units of the channels",
+        )

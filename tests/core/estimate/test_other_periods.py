@@ -74,6 +74,16 @@ def test_a_motion_that_does_not_repeat_is_refused_with_what_came_nearest(log):
     assert nearest is None or nearest > 10.0
 
 
+def test_a_joint_that_does_not_repeat_with_the_others_is_refused_by_its_number():
+    log = logged(12.0, 4.0)
+    rows = log.source.rows(0, log.samples)
+    position = rows.position.copy()
+    position[:, 1] = 0.015 * np.sin(2.0 * np.pi * rows.time / 5.3)
+    with pytest.raises(LogError, match="some joints do not repeat") as refused:
+        found(log_from_arrays("apart", rows.time, position, rows.torque))
+    assert refused.value.evidence["joints"] == [2]
+
+
 def test_the_other_periods_are_their_mean_without_the_own_one():
     log = logged(12.0, 4.0, 1e-3)
     motion = condition(log, MODEL.robot, FilterOptions())

@@ -100,6 +100,16 @@ def test_a_declared_controller_that_does_not_recompute_the_command_is_refused_wi
     assert controller_of(log, DeclaredController(kind="cascade", kp=CASCADE.kp)).accepted
 
 
+@pytest.mark.parametrize(("name", "value"), [("saturation", 1.0), ("torque_gain", 20.0)])
+def test_a_declared_limit_or_gain_that_the_log_contradicts_is_refused_with_what_it_shows(servo, name, value):
+    _, log = servo
+    with pytest.raises(OptionError, match=f"{name} of the controller contradicts") as refused:
+        controller_of(log, DeclaredController(**{name: (value,)}))
+    (shown,) = refused.value.evidence["in_the_log"]
+    # Source: Janot, Gautier & Brunot 2019 for the gain, 35.15 N/V.
+    assert shown == pytest.approx({"saturation": 4.32, "torque_gain": 35.15}[name], rel=0.2)
+
+
 def test_a_declared_controller_drives_the_simulation_and_stands_in_the_result(servo):
     robot, log = servo
     # Gains as published for the benchmark (Janot, Gautier & Brunot 2019).
