@@ -4,6 +4,7 @@ import numpy as np
 
 from ..arrays import Vector
 from ..errors import VeritorqueError
+from ..joint_model.judge import turns_often
 from ..joint_model.names import ESTIMATORS
 from ..joint_model.response import measured_response, model_response
 from ..joint_model.result import FoundModel, JointModel, Known, NotFound, relative_percent
@@ -181,6 +182,12 @@ def _doubts(found: JointModel) -> list[str]:
             "The stamps are uneven: the torque is interpolated, and not exactly held between samples."
         )
     asked = found.models[-1]
+    answers = [model for model in found.models if isinstance(model, FoundModel) and model.failure is None]
+    if any(turns_often(found.record, model.parameters) for model in answers):
+        doubts.append(
+            "The joint has dry friction and reverses often. Where it stands for an instant, friction is not "
+            "modelled: inertia and frictions may be off by more than their deviations. Use longer strokes."
+        )
     if asked.failure is not None:
         doubts.append(f"{_sentence(asked.failure.cause)} Remedy: {asked.failure.remedy}.")
     if asked.failure is not None and found.comparison is not None:

@@ -30,6 +30,9 @@ LEAST_TORQUE: Final = 0.05
 """Share of the torque's RMS around the mode below which noise makes the torque there. Set by hand."""
 AROUND: Final = (0.8, 1.25)
 """The band around antiresonance and mode, as shares of these."""
+MANY_TURNS: Final = 10.0
+"""Reversals per second from which short stands between them matter. A slide with 0.6 has the published
+friction, a simulated joint with 2 its own; others with 95 have inertias 1 to 4 % off. Set by hand."""
 BLOCKS: Final = 20
 """Blocks of held-out rows."""
 
@@ -123,6 +126,14 @@ def unsettled(fitted: Fitted) -> ExcitationError | None:
         evidence={"steps": len(fitted.steps), "last_change": float(f"{fitted.steps[-1].change:.3g}")},
         remedy="let the joint move with more frequencies, and longer; or ask for the other order",
     )
+
+
+def turns_often(record: JointRecord, parameters: Known) -> bool:
+    """Tell whether a joint with dry friction reverses so often that its short stands matter."""
+    friction, deviation = parameters.at("coulomb")
+    turns = np.count_nonzero(np.diff(record.direction[record.direction != 0.0]))
+    often = turns > MANY_TURNS * len(record.position) * record.step
+    return bool(often and friction > max(CLEAR * deviation, NEGLIGIBLE * _rms(record.torque)))
 
 
 def not_seen(evidence: Mapping[str, float]) -> ExcitationError | None:

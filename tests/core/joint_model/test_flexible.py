@@ -6,6 +6,7 @@ import pytest
 from tests.core.joint_model.plant import Plant, Run, log_of, recorded, robot_of
 from veritorque.core.errors import ExcitationError, OptionError, SolverError
 from veritorque.core.identification.identify import no_progress
+from veritorque.core.joint_identification import JointRequest, model_joint
 from veritorque.core.joint_model import refined_iv, responses, start
 from veritorque.core.joint_model.identify import identify_joint
 from veritorque.core.joint_model.options import JointOptions
@@ -178,3 +179,11 @@ def test_a_torque_of_the_wrong_sign_is_refused():
             JointOptions(1, "rigid"),
             no_progress,
         )
+
+
+@pytest.mark.parametrize(("highest_hz", "often"), [(20.0, True), (0.6, False)])
+def test_friction_of_a_joint_that_reverses_often_is_doubted(highest_hz, often):
+    run = Run(noise=2e-5, seconds=6.0, highest_hz=highest_hz, amplitude=0.6 if often else 2.0)
+    log = log_of(recorded(Plant(stiffness=None, coulomb=5.0), run))
+    document = model_joint(JointRequest(robot_of(), (log,), {"joint": 1, "order": "rigid"}))
+    assert any("reverses often" in sentence for sentence in document["doubts"]) == often
