@@ -7,7 +7,7 @@ import numpy as np
 from ..arrays import JointVector
 from ..estimate.kalman.innovations import Innovations, Track
 from ..estimate.methods.registry import ESTIMATORS
-from ..estimate.simulator import Guide
+from ..estimate.simulator import SimulationSetup
 from ..identification.choice import BIASED
 from ..identification.doubts import LEAST_SQUARES
 from ..identification.result import Identification
@@ -47,14 +47,14 @@ def _over_time(track: Track) -> dict[str, object]:
 
 def _simulation(found: Identification) -> dict[str, object]:
     """Say what drove the simulated robot along the logs."""
-    asked = found.guide.options
+    asked = found.simulation.options
     source = {"from": asked.source, "bandwidth_hz": asked.bandwidth_hz, "substeps": asked.substeps}
     if not ESTIMATORS[found.estimator].sources:
         source["window_seconds"] = asked.window_seconds
     return source | {
         "position_rms": found.position_rms,
-        "controllers": [_controller(check) for check in found.guide.controllers],
-        "periods": [other.seconds for other in found.guide.periods],
+        "controllers": [_controller(check) for check in found.simulation.controllers],
+        "periods": [other.seconds for other in found.simulation.periods],
     }
 
 
@@ -73,11 +73,11 @@ def _statements(found: Identification) -> Iterator[str]:
     method, ended = ESTIMATORS[found.estimator], found.convergence
     chosen = "" if found.choice is None else f" It was chosen because {found.choice.reason}."
     yield f"Estimator: {method.title} ({found.estimator}).{chosen}"
-    yield from _guided(found.guide)
+    yield from _beside(found.simulation)
     if method.iterative:
         steps = len(ended.steps)
         went = "simulated" if found.innovations is None else "filtered"
-        went = "went over" if found.guide.periods else went
+        went = "went over" if found.simulation.periods else went
         yield f"It {went} the logs {steps} time{'s' * (steps != 1)}: {ended.reason}."
     if found.innovations is not None:
         yield _foreseen(found.innovations)
@@ -87,11 +87,11 @@ def _statements(found: Identification) -> Iterator[str]:
         yield from _attenuated(found.attenuation.missed)
 
 
-def _guided(guide: Guide) -> Iterator[str]:
+def _beside(simulation: SimulationSetup) -> Iterator[str]:
     """Say what told of the motion beside the measured one."""
-    for number, check in enumerate(guide.controllers, start=1):
+    for number, check in enumerate(simulation.controllers, start=1):
         yield _recognised(number, check)
-    for number, other in enumerate(guide.periods, start=1):
+    for number, other in enumerate(simulation.periods, start=1):
         told = f"The motion of log {number} repeats every {other.seconds:.6g} s"
         yield f"{told}; each period is held beside the others."
 

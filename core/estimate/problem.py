@@ -26,7 +26,7 @@ from .kalman.innovations import Innovations, Track
 from .methods.method import Equations
 from .options import KalmanOptions
 from .reversals import reversal_weights
-from .simulator import Guide, Simulator
+from .simulator import SimulationSetup, Simulator
 from .system import INSTRUMENTAL, LEAST_SQUARES, Criterion, ordinary, weighted
 
 CHANGE = 1e-4
@@ -78,8 +78,8 @@ class ObservedProblem:
     """Whether rows beside a reversal are weighted by their own noise."""
     weights: JointVector | None = None
     """Weight of these rows per joint; None while it is not chosen, and for one."""
-    guide: Guide = field(default_factory=Guide)
-    """What tells of the motion where columns of simulated motion are asked for."""
+    simulation: SimulationSetup = field(default_factory=SimulationSetup)
+    """How the motions are simulated, where columns of simulated motion are asked for."""
     criterion: Criterion = LEAST_SQUARES
     """How the factors become equations."""
     kalman: KalmanOptions = field(default_factory=KalmanOptions)
@@ -237,7 +237,7 @@ class ObservedProblem:
             at,
             weighted(own.factors, own.columns_of, own.size),
             torque_scales(self.observation, self.fitted),
-            self.guide.options.substeps,
+            self.simulation.options.substeps,
             self.kalman,
             unscented,
         )
@@ -256,7 +256,7 @@ class ObservedProblem:
     @property
     def _simulator(self) -> Simulator:
         problem = self.problem
-        return Simulator(problem.base, problem.motions, self.guide, self.observation.positions)
+        return Simulator(problem.base, problem.motions, self.simulation, self.observation.positions)
 
     def check_excitation(self) -> None:
         """Refuse a motion in which no inertia takes any torque: every joint keeps its speed.

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Guide:
-    """Hold what tells of the logs' motion beside the measured one."""
+class SimulationSetup:
+    """Hold how the logs are simulated, or which other periods stand beside them."""
 
     options: SimulationOptions = field(default_factory=SimulationOptions)
     controllers: tuple[ControllerCheck, ...] = ()
@@ -36,7 +36,9 @@ class Guide:
     """The logs' other periods, where these are taken."""
 
 
-def guide_of(base: BaseModel, motions: Sequence[Motion], options: SimulationOptions) -> Guide:
+def simulation_setup(
+    base: BaseModel, motions: Sequence[Motion], options: SimulationOptions
+) -> SimulationSetup:
     """Find the logs' controllers, or periods, where they are asked for.
 
     Raises
@@ -48,10 +50,12 @@ def guide_of(base: BaseModel, motions: Sequence[Motion], options: SimulationOpti
     """
     if options.source == CONTROLLER:
         found = tuple(controller_of(motion.log, options.controller) for motion in motions)
-        return Guide(options, controllers=found)
+        return SimulationSetup(options, controllers=found)
     if options.source == PERIODS:
-        return Guide(options, periods=tuple(other_periods(motion, base.model.robot) for motion in motions))
-    return Guide(options)
+        return SimulationSetup(
+            options, periods=tuple(other_periods(motion, base.model.robot) for motion in motions)
+        )
+    return SimulationSetup(options)
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,13 +64,13 @@ class Simulator:
 
     base: BaseModel
     motions: tuple[Motion, ...]
-    guide: Guide
+    simulation: SimulationSetup
     positions: JointSeries
     """A sample of the positions along the motions."""
 
     def moved(self, at: Parameters) -> tuple[Tiled, ...]:
         """Give the motions of a robot of these standard parameters, or those of other periods."""
-        return self.guide.periods or self.simulated(at)
+        return self.simulation.periods or self.simulated(at)
 
     def simulated(self, at: Parameters) -> tuple["SimulatedMotion", ...]:
         """Simulate a robot of these standard parameters.
@@ -87,16 +91,16 @@ class Simulator:
             )
         mechanism = mechanism_of(self.base.model, at)
         pairs = zip(self.motions, self._sources(mechanism), strict=True)
-        substeps = self.guide.options.substeps
+        substeps = self.simulation.options.substeps
         return tuple(SimulatedMotion(motion, mechanism, source, substeps) for motion, source in pairs)
 
     def _sources(self, mechanism: Mechanism) -> "list[Source]":
         from ..simulation.closed_loop.controlled import Controlled
         from ..simulation.closed_loop.replay import Replay, default_gains
 
-        if self.guide.controllers:
-            return [Controlled(check.model) for check in self.guide.controllers]
-        gains = default_gains(mechanism, self.positions, self.guide.options.bandwidth_hz)
+        if self.simulation.controllers:
+            return [Controlled(check.model) for check in self.simulation.controllers]
+        gains = default_gains(mechanism, self.positions, self.simulation.options.bandwidth_hz)
         return [Replay(gains, mechanism)] * len(self.motions)
 
     def differentiated(self, at: Parameters, output: str, changes: BaseParameters) -> RowSource:
@@ -115,7 +119,7 @@ class Simulator:
         mechanisms = [mechanism_of(self.base.model, robot) for robot in robots]
         base = self.base.base_of(at)
         if output == WINDOWS:
-            seconds, substeps = self.guide.options.window_seconds, self.guide.options.substeps
+            seconds, substeps = self.simulation.options.window_seconds, self.simulation.options.substeps
             silent = [motion.segments[0].unmeasured for motion in self.motions]
             held = [motion.recipe.held for motion in self.motions]
             return FreeWindows(base, changes, mechanisms, seconds, silent, held, substeps)

@@ -13,7 +13,7 @@ from ..estimate.methods.kalman import KalmanFilter
 from ..estimate.methods.method import Step
 from ..estimate.plausibility import link_bounds
 from ..estimate.problem import ObservedProblem, Problem
-from ..estimate.simulator import Guide, guide_of
+from ..estimate.simulator import SimulationSetup, simulation_setup
 from ..estimate.system import System
 from ..log.model import JointLog
 from ..numerics.block_bootstrap import block_draws
@@ -51,8 +51,8 @@ class Fit:
     estimate: Estimate
     convergence: Convergence
     """How an iterative estimator ended."""
-    guide: Guide
-    """What told of the logs' motion beside the measured one, where it iterates."""
+    simulation: SimulationSetup
+    """How the logs were simulated, or which other periods stood beside them, where it iterates."""
     position_rms: JointVector | None
     """RMS of that motion less the measured positions, rad or m; None where there is none."""
     track: Track | None
@@ -95,9 +95,9 @@ def _fit(problem: Problem, options: IdentifyOptions, tell: Progress, observation
     """Fit by the estimator that the options name."""
     tell("estimate", 0.6)
     asked = options.estimate
-    guide = guide_of(problem.base, problem.motions, asked.simulation)
+    simulation = simulation_setup(problem.base, problem.motions, asked.simulation)
     data = ObservedProblem(
-        problem, observation, asked.robust, asked.weigh_reversals, guide=guide, kalman=asked.kalman
+        problem, observation, asked.robust, asked.weigh_reversals, simulation=simulation, kalman=asked.kalman
     )
     data.check_excitation()
     prior = default_prior(problem.base.model, torque_scales(observation, data.fitted), problem.sizes)
@@ -114,7 +114,7 @@ def _fit(problem: Problem, options: IdentifyOptions, tell: Progress, observation
     if isinstance(method, KalmanFilter) and asked.kalman.drift > 0.0 and step.innovations is not None:
         followed = data.tracked(found.standard, unscented=method.unscented)
         track = followed.widened(step.innovations.dispersion)
-    return Fit(problem, observation, step, found, convergence, guide, apart, track, options)
+    return Fit(problem, observation, step, found, convergence, simulation, apart, track, options)
 
 
 def judge(logs: tuple[JointLog, ...], found: Fit, tell: Progress, mapper: Mapper = SERIAL) -> Identification:
@@ -172,7 +172,7 @@ def judge(logs: tuple[JointLog, ...], found: Fit, tell: Progress, mapper: Mapper
         start_percent=None
         if found.convergence.start is None
         else total_percent(observation, held or fitted, found.convergence.start),
-        guide=found.guide,
+        simulation=found.simulation,
         position_rms=found.position_rms,
         innovations=found.step.innovations,
         track=found.track,

@@ -6,7 +6,7 @@ from ..arrays import BlockKey, JointVector, Matrix
 from ..estimate.estimate import Estimate
 from ..estimate.feasibility import Feasibility
 from ..estimate.kalman.innovations import Innovations, Track
-from ..estimate.simulator import Guide
+from ..estimate.simulator import SimulationSetup
 from ..log.model import JointLog
 from ..precision.attenuation import Attenuation
 from ..precision.endogeneity import Endogeneity
@@ -59,8 +59,8 @@ class Identification:
     """Its name in the registry."""
     convergence: Convergence
     """How it ended, where it takes more than one step."""
-    guide: Guide
-    """What told of the logs' motion beside the measured one, where it iterates."""
+    simulation: SimulationSetup
+    """How the logs were simulated, or which other periods stood beside them, where it iterates."""
     start_percent: float | None
     """Error of the least squares that an iteration began at, like `judged_percent`; None without one."""
     position_rms: JointVector | None

@@ -46,7 +46,7 @@ def test_options_of_both_estimators_are_taken():
     log = scene("planar-2").log(0.1, 0.02, 0)
     wide = found_by(log, estimator="auto", robust=True, simulation={"bandwidth_hz": 3.0})
     assert wide.estimator == "cloe"
-    assert wide.guide.options.bandwidth_hz == 3.0
+    assert wide.simulation.options.bandwidth_hz == 3.0
 
 
 def test_a_log_that_cannot_be_simulated_is_fitted_by_least_squares_and_says_so():
