@@ -82,7 +82,7 @@ class DynamicModel:
 def term_torque(term: Term, robot: RobotModel, parameters: Parameters, state: MotionState) -> JointSeries:
     """Give the torque of one term, N m or N; rigid bodies need one recursion, not one per parameter."""
     if isinstance(term, RigidBody):
-        return inverse_dynamics(robot, parameters.reshape(-1, 10), state)
+        return inverse_dynamics(robot, parameters.reshape(-1, 10), state.links)
     torque = np.zeros_like(state.position, dtype=float)
     for (joint, parameter), row in zip(term.entries(robot), term.series(robot, state), strict=True):
         torque[:, joint] += parameters[parameter] * row

@@ -24,6 +24,8 @@ class Term(Protocol):
     """Whether the torque is an error of the torque channel, which moves nothing."""
     loads: ClassVar[bool] = False
     """Whether it acts on the links, so that transmissions carry it."""
+    shapes_motion: ClassVar[bool] = False
+    """Whether its parameters show in the motion of the links alone, and have no column."""
 
     @property
     def name(self) -> str:

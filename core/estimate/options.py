@@ -17,6 +17,8 @@ SOURCES = (REPLAY, CONTROLLER, PERIODS)
 SOLVERS = ("clarabel", "cvxpy")
 _OF_LEAST_SQUARES = {"bounds", "entropy", "robust"}
 """Options that act on estimator sdp and not on all others."""
+FLEXIBLE = "didim"
+"""The estimator that tells springs of joints apart."""
 LEAST_SCALE = 1e-3
 """Smallest factor on what a Kalman filter assumes."""
 PULL = 0.02
@@ -138,6 +140,8 @@ class EstimateOptions:
     simulation: SimulationOptions = field(default_factory=SimulationOptions)
     iteration: IterationOptions = field(default_factory=IterationOptions)
     kalman: KalmanOptions = field(default_factory=KalmanOptions)
+    flexible_joints: tuple[int, ...] = ()
+    """Joints, from 1, with a spring between motor and link: their stiffness and damping are estimated too."""
 
     @property
     def method(self) -> Estimator:
@@ -154,6 +158,7 @@ class EstimateOptions:
             simulation=self.simulation.acting_on(method),
             iteration=self.iteration if method.iterative else plain.iteration,
             kalman=self.kalman if isinstance(method, KalmanFilter) else plain.kalman,
+            flexible_joints=self.flexible_joints if estimator == FLEXIBLE else (),
         )
 
     @property
@@ -175,6 +180,7 @@ class EstimateOptions:
                 remedy="choose one of the known names",
             )
         self._check_source()
+        self._check_flexible()
         without_effect = self._without_effect()
         if without_effect:
             helps = "ask for estimator sdp, or " * (set(without_effect) <= _OF_LEAST_SQUARES)
@@ -205,6 +211,26 @@ class EstimateOptions:
                 f"the estimator {method.name} takes no motion from {source}",
                 evidence={"pointer": "/options/simulation/from", "known": list(method.sources)},
                 remedy=f"ask for one of {', '.join(others)}, or simulate from {' or '.join(method.sources)}",
+            )
+
+    def _check_flexible(self) -> None:
+        """Refuse flexible joints that are none, and an estimator or a simulation that knows none."""
+        joints = self.flexible_joints
+        if joints and (self.estimator, self.simulation.source) != (FLEXIBLE, REPLAY):
+            raise OptionError(
+                "flexible joints are estimated by didim from replayed logs only",
+                evidence={
+                    "pointer": "/options/flexible_joints",
+                    "estimator": self.estimator,
+                    "simulation": self.simulation.source,
+                },
+                remedy=f"ask for estimator {FLEXIBLE} with simulation.from {REPLAY}, or leave flexible_joints out",
+            )
+        if list(joints) != sorted(set(joints)) or min(joints, default=1) < 1:
+            raise OptionError(
+                "the flexible joints are not valid",
+                evidence={"pointer": "/options/flexible_joints", "given": list(joints)},
+                remedy="list numbers of joints from 1, rising, each once",
             )
 
     def _without_effect(self) -> list[str]:

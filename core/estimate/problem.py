@@ -23,7 +23,7 @@ from .compensation import Compensated
 from .gaussian_prior import GaussianPrior
 from .kalman.filter_start import FilterStart
 from .kalman.innovations import Innovations, Track
-from .methods.method import Equations
+from .methods.method import TORQUE, Equations
 from .options import KalmanOptions
 from .reversals import reversal_weights
 from .simulator import SimulationSetup, Simulator
@@ -141,8 +141,13 @@ class ObservedProblem:
         return replace(self, observation=self.problem.observed(weigh=weigh))
 
     def simulated(self, at: Parameters) -> "ObservedProblem":
-        """Take the columns of the motion that a robot of these parameters makes."""
+        """Take the columns of the motion that a robot of these parameters makes.
+
+        Where springs move the links, these columns are no derivatives near a mode: the derivatives are taken.
+        """
         problem = self.problem
+        if any(term.shapes_motion for term in problem.base.model.terms):
+            return self.differentiated(at, TORQUE)
         moved = observe(problem.plan, self._simulator.moved(at), held_out=problem.held_out)
         return replace(self, observation=moved)
 

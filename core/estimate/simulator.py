@@ -17,6 +17,7 @@ from ..signals.condition import Motion
 from ..signals.periods import OtherPeriods, other_periods
 from ..simulation.control.controller_check import ControllerCheck
 from ..simulation.control.own_controller import controller_of
+from ..simulation.integrate import steps_between
 from ..simulation.mechanism import Mechanism, mechanism_of
 from .methods.method import CONTROLLER, PERIODS, TORQUE, WINDOWS
 from .options import SimulationOptions
@@ -91,8 +92,20 @@ class Simulator:
             )
         mechanism = mechanism_of(self.base.model, at)
         pairs = zip(self.motions, self._sources(mechanism), strict=True)
-        substeps = self.simulation.options.substeps
-        return tuple(SimulatedMotion(motion, mechanism, source, substeps) for motion, source in pairs)
+        return tuple(
+            SimulatedMotion(motion, mechanism, source, self._substeps(motion, mechanism))
+            for motion, source in pairs
+        )
+
+    def _substeps(self, motion: Motion, mechanism: Mechanism) -> int | None:
+        """Give the steps per sample: those asked for, or as many as springs need, whichever are more."""
+        asked = self.simulation.options.substeps
+        if mechanism.springs is None:
+            return asked
+        from ..simulation.closed_loop.springs import LONGEST_ANGLE, fastest
+
+        angle = fastest(mechanism, self.positions) / motion.log.rate_hz
+        return max(steps_between(1.0 / motion.log.rate_hz, asked), int(np.ceil(angle / LONGEST_ANGLE)))
 
     def _sources(self, mechanism: Mechanism) -> "list[Source]":
         from ..simulation.closed_loop.controlled import Controlled

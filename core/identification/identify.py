@@ -29,6 +29,7 @@ from ..validation.mass_matrix import check_mass_matrix, pseudo_inertia_eigenvalu
 from ..validation.scores import reversals_percent, scores, total_percent
 from .choice import SPARED, USUAL, Choice, choose
 from .convergence import Convergence, converge
+from .flexible import with_springs
 from .options import IdentifyOptions
 from .result import Identification
 
@@ -95,12 +96,16 @@ def _fit(problem: Problem, options: IdentifyOptions, tell: Progress, observation
     """Fit by the estimator that the options name."""
     tell("estimate", 0.6)
     asked = options.estimate
+    scales = torque_scales(observation, observation.parts(problem.held_out)[0])
+    flexible = with_springs(problem, asked.flexible_joints) if asked.flexible_joints else None
+    if flexible is not None:
+        problem, observation = flexible.problem, flexible.differentiated(flexible.base)
     simulation = simulation_setup(problem.base, problem.motions, asked.simulation)
     data = ObservedProblem(
         problem, observation, asked.robust, asked.weigh_reversals, simulation=simulation, kalman=asked.kalman
     )
     data.check_excitation()
-    prior = default_prior(problem.base.model, torque_scales(observation, data.fitted), problem.sizes)
+    prior = default_prior(problem.base.model, scales, problem.sizes)
 
     def solve(step: Step) -> Estimate:
         return estimate(problem.base, step.system.with_prior(problem.prior), prior, asked)
@@ -114,6 +119,8 @@ def _fit(problem: Problem, options: IdentifyOptions, tell: Progress, observation
     if isinstance(method, KalmanFilter) and asked.kalman.drift > 0.0 and step.innovations is not None:
         followed = data.tracked(found.standard, unscented=method.unscented)
         track = followed.widened(step.innovations.dispersion)
+    if flexible is not None:
+        observation = flexible.observed(found.base)
     return Fit(problem, observation, step, found, convergence, simulation, apart, track, options)
 
 

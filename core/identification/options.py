@@ -127,6 +127,7 @@ _SCALARS = {
     "smooth_coulomb": "true or false",
     "essential": "true or false",
     "conflicts": "apply or report",
+    "flexible_joints": "a list of joint numbers, counted from 1",
 }
 _OBJECTS = {name: f"an object with {', '.join(fields)}" for name, fields in _SECTIONS.items()}
 OPTION_FIELDS = dict(sorted((_SCALARS | _OBJECTS).items()))
@@ -196,6 +197,7 @@ def _options(
                 simulation=_simulation(inner["simulation"], inner["controller"]),
                 iteration=inner["iteration"].record(IterationOptions()),
                 kalman=inner["kalman"].record(KalmanOptions()),
+                flexible_joints=top.integers("flexible_joints") if top.has("flexible_joints") else (),
                 **prior,
             ),
             validation=_validation(inner["validation"], hold_out),

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..arrays import BaseParameters, Matrix, Parameters, Rows, Vector
 from ..dynamics.model import DynamicModel
+from ..dynamics.terms.flexible_joints import FlexibleJoints
 from ..regressor.columns import all_columns, dense
 from ..robot.model import INERTIAL_SYMBOLS, Parameter, RobotModel
 from ..signals.state import MotionState
@@ -105,7 +106,8 @@ def base_model(model: DynamicModel) -> BaseModel:
     The states are drawn with a fixed seed and ignore the joint limits: what is sought holds for every motion.
     """
     order = khalil_order(model)
-    matrix = dense(all_columns(model), _random_states(model.robot, len(order)))[:, list(order)]
+    matrix = dense(all_columns(model), _random_states(model, len(order)))
+    matrix = np.vstack([matrix, np.eye(len(order))[_in_motion(model)]])[:, list(order)]
     units = [model.parameters[column].unit for column in order]
     kept, relation, least = _first_independent(matrix, units)
     grouping = np.zeros((len(kept), len(order)))
@@ -140,10 +142,25 @@ def _link_of(robot: RobotModel, joint: int) -> int:
     return next(number for number, link in enumerate(robot.links, start=1) if link.joint == joint)
 
 
-def _random_states(robot: RobotModel, parameters: int) -> MotionState:
-    rng = np.random.default_rng(_SEED)
-    shape = (max(60, 4 * parameters // len(robot.joints)), len(robot.joints))
-    return MotionState(*(rng.uniform(-np.pi, np.pi, shape) for _ in range(3)))
+def _in_motion(model: DynamicModel) -> list[int]:
+    """List the parameters that show in the motion alone: nothing else can take their place."""
+    groups = [(term, len(term.parameters(model.robot))) for term in model.terms]
+    marks = [term.shapes_motion for term, count in groups for _ in range(count)]
+    return [column for column, mark in enumerate(marks) if mark]
+
+
+def _random_states(model: DynamicModel, parameters: int) -> MotionState:
+    """Draw states; motors of flexible joints move otherwise than their links."""
+    rng, joints = np.random.default_rng(_SEED), len(model.robot.joints)
+    shape = (max(60, 4 * parameters // joints), joints)
+    drawn = [rng.uniform(-np.pi, np.pi, shape) for _ in range(3)]
+    flexible = [joint - 1 for term in model.terms if isinstance(term, FlexibleJoints) for joint in term.flexible]
+    if not flexible:
+        return MotionState(*drawn)
+    links = [series.copy() for series in drawn]
+    for series in links:
+        series[:, flexible] = rng.uniform(-np.pi, np.pi, (shape[0], len(flexible)))
+    return MotionState(*drawn, None, None, None, *links)
 
 
 def _first_independent(matrix: Matrix, units: list[str]) -> tuple[list[int], Rows, float]:

@@ -123,10 +123,11 @@ class _RigidBodyFill:
         )
 
     def __call__(self, robot: RobotModel, state: MotionState, out: Series) -> None:
+        links = state.links
         rigid_body_series(
-            np.ascontiguousarray(state.position.T),
-            np.ascontiguousarray(state.velocity.T),
-            np.ascontiguousarray(state.acceleration.T),
+            np.ascontiguousarray(links.position.T),
+            np.ascontiguousarray(links.velocity.T),
+            np.ascontiguousarray(links.acceleration.T),
             *robot.link_arrays,
             np.asarray(robot.gravity, dtype=float),
             self.chain_start,

@@ -23,6 +23,17 @@ class MotionState:
     """Dry friction as a share of its level, from -1 to 1: of the joints first, then of declared couplings.
     A simulation knows it also where friction holds, and it stands in the place of the velocity's sign; None
     where only the velocity is known."""
+    link_position: JointSeries | None = None
+    link_velocity: JointSeries | None = None
+    link_acceleration: JointSeries | None = None
+    """Motion of the links where springs lie between motors and links; None where links move as motors do."""
+
+    @property
+    def links(self) -> "MotionState":
+        """Give the motion of the links."""
+        if self.link_position is None or self.link_velocity is None or self.link_acceleration is None:
+            return self
+        return MotionState(self.link_position, self.link_velocity, self.link_acceleration, self.time)
 
     def at(self, rows: slice | Indices) -> "MotionState":
         """Take some rows of the motion."""

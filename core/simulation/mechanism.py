@@ -6,16 +6,17 @@ no function of that state: what depends on the motion before, and what only the 
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
-from ..arrays import JointMarks, JointSeries, Parameters, Weights
+from ..arrays import Indices, JointMarks, JointSeries, Parameters, Vector, Weights
 from ..dynamics.model import DynamicModel
 from ..dynamics.term import Term
 from ..dynamics.terms.coulomb import Coulomb
 from ..dynamics.terms.coupling import GearCoupling
+from ..dynamics.terms.flexible_joints import FlexibleJoints
 from ..dynamics.terms.joint_coupling import MissingCoupling
 from ..dynamics.terms.offset import Offset
 from ..dynamics.terms.rigid_body import RigidBody
@@ -57,6 +58,17 @@ class Share:
 
 
 @dataclass(frozen=True, eq=False)
+class Springs:
+    """Hold the springs between motors and links."""
+
+    joints: Indices
+    """The joints (from 0) that have one."""
+    stiffness: Vector
+    damping: Vector
+    """Per such joint, N m/rad and N m s/rad."""
+
+
+@dataclass(frozen=True, eq=False)
 class Mechanism:
     """Hold a model with numbers, sorted for simulation; build it with `mechanism_of`."""
 
@@ -80,6 +92,11 @@ class Mechanism:
     """Terms whose torque depends on the motion before the instant."""
     channel: Share
     """Terms that are logged as torque and move nothing."""
+    springs: Springs | None = None
+    """Between motors and links; None where every joint is rigid. Whoever does not ask for them simulates rigid
+    joints."""
+    stiffness: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
+    """Of springs between coordinates, N m/rad, coordinates x coordinates; empty where there is none."""
 
     @property
     def robot(self) -> RobotModel:
@@ -119,7 +136,8 @@ class Mechanism:
 
     def torque(self, state: MotionState) -> JointSeries:
         """Predict the torque (N m or N) of a motion, as `DynamicModel.torque` does but compiled."""
-        tables = (columns(series) for series in (state.position, state.velocity, state.acceleration))
+        links = state.links
+        tables = (columns(series) for series in (links.position, links.velocity, links.acceleration))
         parts = self.model.split(self.parameters)
         links = sum(
             (values.reshape(-1, 10) for term, values in parts if isinstance(term, RigidBody)),
@@ -171,7 +189,15 @@ def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:
         others=share_of(model.robot, of_state),
         with_memory=share_of(model.robot, with_memory),
         channel=share_of(model.robot, channel),
+        springs=_springs(model, parameters),
     )
+
+
+def _springs(model: DynamicModel, parameters: Parameters) -> Springs | None:
+    for term, values in model.split(parameters):
+        if isinstance(term, FlexibleJoints):
+            return Springs(np.array(term.flexible) - 1, values[0::2], values[1::2])
+    return None
 
 
 def _partition(parts: Parts, chosen: Callable[[Term], bool]) -> tuple[Parts, Parts]:
@@ -197,7 +223,7 @@ def _sort_terms(
             coupled += _couplings(robot.couplings, values, len(robot.joints))
         elif isinstance(term, MissingCoupling):
             coupled += _couplings((term.coupling,), values, len(robot.joints))
-        elif not is_body(term):
+        elif not is_body(term) and not isinstance(term, FlexibleJoints):
             others.append((term, values))
     return drives, coupled, others
 

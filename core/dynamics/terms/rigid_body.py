@@ -47,7 +47,7 @@ class RigidBody(Term):
         for column in range(10 * len(robot.links)):
             unit = np.zeros(10 * len(robot.links))
             unit[column] = 1.0
-            torque = inverse_dynamics(robot, unit.reshape(-1, 10), state)
+            torque = inverse_dynamics(robot, unit.reshape(-1, 10), state.links)
             for row, (joint, parameter) in enumerate(entries):
                 if parameter == column:
                     rows[row] = torque[:, joint]

@@ -123,6 +123,7 @@ class Loop:
         failed = rows.play(
             mechanism.bodies,
             (mechanism.inertia, mechanism.damping, mechanism.weights),
+            mechanism.stiffness,
             mechanism.offset,
             mechanism.levels,
             self.law.table,

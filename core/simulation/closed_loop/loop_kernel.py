@@ -109,6 +109,14 @@ def _rub(rate, factor, scale, weights, levels, held, before, after, step) -> Non
 
 
 @njit(inline="always")
+def _pull(out, stiffness, state) -> None:
+    """Take the torque of springs between coordinates from what drives them; none where the table is empty."""
+    for i in range(len(stiffness)):
+        for j in range(len(stiffness)):
+            out[i, 0] -= stiffness[i, j] * state[POSITION, j]
+
+
+@njit(inline="always")
 def _slides_on(weights, levels, held, after) -> bool:
     """Tell whether every friction slides the way it is held against, at its level."""
     for e in range(len(levels)):
@@ -143,7 +151,7 @@ def kick(out, implicit, mass, scale, drives, offset, bias, levels, held, before,
 
 
 @njit(inline="always")
-def _write(motion, share, k, drives, offset, levels, held, state, rate, velocity, bodies) -> None:
+def _write(motion, share, k, drives, stiffness, offset, levels, held, state, rate, velocity, bodies) -> None:
     """Write the sample's row: what the joints do, and the torque that this takes."""
     position, speed, acceleration, torque = motion
     inertia, damping, weights = drives
@@ -154,6 +162,8 @@ def _write(motion, share, k, drives, offset, levels, held, state, rate, velocity
             total += inertia[i, j] * rate[j, 0] + damping[i, j] * velocity[j, 0]
         for e in range(len(levels)):
             total += weights[e, i] * held[e]
+        for j in range(len(stiffness)):
+            total += stiffness[i, j] * state[POSITION, j]
         torque[k, i] = total
     for e in range(len(levels)):
         share[k, e] = held[e] / levels[e]
@@ -229,12 +239,12 @@ def tables_of(joints, links) -> tuple[np.ndarray, ...]:
 
 
 @njit(
-    f"int64({ROBOT}, UniTuple({TABLE}, 3), float64[::1], float64[::1], {TABLE}, UniTuple({TABLE}, 3),"
-    f" {TABLE}, float64[::1], UniTuple({TABLE}, 4), {TABLE}, float64, int64, boolean, boolean)",
+    f"int64({ROBOT}, UniTuple({TABLE}, 3), {TABLE}, float64[::1], float64[::1], {TABLE},"
+    f" UniTuple({TABLE}, 3), {TABLE}, float64[::1], UniTuple({TABLE}, 4), {TABLE}, float64, int64, boolean, boolean)",
     **OPTIONS,
 )
 def play(  # pragma: no cover  (compiled)
-    robot, drives, offset, levels, law, inputs, state, held, motion, share, step, substeps, sampled, fresh
+    robot, drives, stiffness, offset, levels, law, inputs, state, held, motion, share, step, substeps, sampled, fresh
 ) -> int:
     """Step through all samples of the inputs; gives the sample at which it failed, or -1.
 
@@ -242,6 +252,8 @@ def play(  # pragma: no cover  (compiled)
     ----------
     drives
         Inertia and damping that the bodies do not have, and weights of frictions: see `Mechanism`.
+    stiffness
+        Of springs between coordinates, coordinates x coordinates; empty where there is none.
     law, inputs
         The controller (see `LAW_ROWS`), and per sample its feed-forward torque, position and velocity wanted.
     state, held
@@ -265,6 +277,7 @@ def play(  # pragma: no cover  (compiled)
             _drift(state, place, before, ahead, out, implicit, part, 0.0 if begin else part)
             back = (substeps - number - 1) / substeps
             asked = _ask(out, implicit, law, state, ahead, inputs, k, step, back, sampled, begin)
+            _pull(out, stiffness, state)
             lane_place(robot, scratch, kept, place)
             lane_torque(robot, scratch, kept, ahead, still, bodies)
             lane_mass(robot, scratch, kept, mass, joints)
@@ -272,5 +285,5 @@ def play(  # pragma: no cover  (compiled)
             if _keep(state, implicit, before, after, out, velocity, part, asked):
                 return k
         lane_torque(robot, scratch, kept, velocity, out, bodies)
-        _write(motion, share, k, drives, offset, levels, held, state, out, velocity, bodies)
+        _write(motion, share, k, drives, stiffness, offset, levels, held, state, out, velocity, bodies)
     return -1

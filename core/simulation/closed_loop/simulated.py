@@ -19,6 +19,7 @@ from ...signals.state import MotionState
 from ..control.control_law import ControlLaw, Inputs
 from ..integrate import steps_between
 from ..mechanism import Mechanism
+from .flexible_loop import FlexibleLoop
 from .loop import Loop, LoopState, Played
 
 
@@ -95,9 +96,13 @@ class SimulatedMotion:
     def _begun(self, segment: Segment, tile: Tile) -> "_Lane":
         step = 1.0 / segment.rate_hz
         mechanism = self.mechanism.holding(self.motion.recipe.held)
-        loop = Loop(mechanism, self.source.law(step), step, steps_between(step, self.substeps))
-        none = Played(tile.state.at(slice(0)), tile.torque[:0])
-        return _Lane(segment, self.source, loop, loop.start(tile.state), none).onwards(tile)
+        steps, none = steps_between(step, self.substeps), Played(tile.state.at(slice(0)), tile.torque[:0])
+        if mechanism.springs is None:
+            loop = Loop(mechanism, self.source.law(step), step, steps)
+            return _Lane(segment, self.source, loop, loop.start(tile.state), none).onwards(tile)
+        flexible = FlexibleLoop(mechanism, self.source.law(step), step, steps)
+        begun = flexible.start(tile.state, self.source.inputs(Piece(segment, step, 0, tile.state, tile.torque)))
+        return _Lane(segment, self.source, flexible, begun, none).onwards(tile)
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +111,7 @@ class _Lane:
 
     segment: Segment
     source: Source
-    loop: Loop
+    loop: Loop | FlexibleLoop
     state: LoopState
     seen: Played
 

@@ -1,0 +1,155 @@
+"""Find where an arm with flexible joints begins: without a simulation, from far off.
+
+First each spring alone, to first order in its compliance; then all of them, with the links where the torques
+say they are, by Gauss-Newton steps. Source: De Luca & Book, Springer Handbook of Robotics (2016), ch. 11.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from ..arrays import BaseParameters, JointSeries, Parameters, Vector
+from ..dynamics.terms.flexible_joints import DAMPING, STIFFNESS, FlexibleJoints
+from ..errors import ExcitationError
+from ..regressor.eliminated import ROTOR, EliminatedRows, SpringRows, Transmission, column_of
+from ..regressor.observe import Observation
+from ..simulation.closed_loop.springs import links_of
+from ..simulation.mechanism import mechanism_of
+from .problem import Problem
+from .system import weighted
+
+STEPS: Final = 9
+"""Gauss-Newton steps: from half the stiffness, six leave less than the noise does."""
+UNDAMPED: Final = 3
+"""The first of them take the damping as zero: from far off it is of any sign."""
+MOST_CHANGE: Final = 2.0
+"""Factor by which one step changes a stiffness at most."""
+ROTOR_SHARES: Final = (0.02, 0.98)
+"""Least and largest share of a rotor in its joint's whole inertia to begin with."""
+
+
+@dataclass(frozen=True, eq=False)
+class FlexibleStart:
+    """Hold a problem with flexible joints, and where it begins."""
+
+    problem: Problem
+    base: BaseParameters
+
+    def transmission(self, base: BaseParameters) -> Transmission:
+        """Give what stands between torques and links."""
+        return transmission_of(self.problem, base)
+
+    def observed(self, base: BaseParameters) -> Observation:
+        """Give the equations of motors and links, by which a robot of these base parameters is judged."""
+        return self.problem.observed(rows=_rows(self.problem, base))
+
+    def differentiated(self, base: BaseParameters) -> Observation:
+        """Give the equations of a Gauss-Newton step."""
+        return self.problem.observed(rows=_differentiated(self.problem, base, damped=True))
+
+
+def transmission_of(problem: Problem, base: BaseParameters) -> Transmission:
+    """Give what stands between torques and links."""
+    joints = flexible_joints(problem)
+
+    def of(symbol: str) -> Vector:
+        names = [problem.base.model.parameters[column].name for column in problem.plan.columns]
+        return np.array([base[names.index(name)] if (name := f"{symbol}{joint + 1}") in names else 0.0 for joint in joints])
+
+    return Transmission(joints, of(STIFFNESS), of(DAMPING), of(ROTOR), of("FV"), of("FC"), of("OFF"))
+
+
+def flexible_joints(problem: Problem) -> np.ndarray:
+    """Give the flexible joints of a problem, from 0."""
+    terms = problem.base.model.terms
+    return np.array([joint - 1 for term in terms if isinstance(term, FlexibleJoints) for joint in term.flexible])
+
+
+def begin(problem: Problem) -> FlexibleStart:
+    """Find stiffnesses, dampings and rotors to begin with.
+
+    Raises
+    ------
+    ExcitationError
+        If a spring's compliance is not positive: the log does not show that the joint is flexible.
+    """
+    base = _first(problem)
+    unmoved = problem.observed(rows=_rows(problem, base))
+    solved = weighted(unmoved.scored_factors(_fitted(problem, unmoved)), unmoved.columns_of, len(base)).solved()
+    base = _with_springs(problem, solved, base, 0)
+    for number in range(STEPS):
+        rows = _differentiated(problem, base, damped=number >= UNDAMPED)
+        seen = problem.observed(rows=rows)
+        found = weighted(seen.scored_factors(_fitted(problem, seen)), seen.columns_of, len(base)).solved()
+        base = _with_springs(problem, found, base, number)
+    return FlexibleStart(problem, base)
+
+
+def _fitted(problem: Problem, seen: Observation) -> tuple[int, ...]:
+    return seen.parts(problem.held_out)[0]
+
+
+def _rows(problem: Problem, base: BaseParameters) -> EliminatedRows:
+    recipes = [motion.recipe for motion in problem.motions]
+    return EliminatedRows(problem.plan, transmission_of(problem, base), recipes, base)
+
+
+def _differentiated(problem: Problem, base: BaseParameters, *, damped: bool) -> EliminatedRows:
+    mechanism = links_of(mechanism_of(problem.base.model, standard_of(problem, base)))
+
+    def masses(positions: JointSeries) -> np.ndarray:
+        return mechanism.mass_matrices(positions)
+
+    return replace(_rows(problem, base), masses=masses, damped=damped)
+
+
+def standard_of(problem: Problem, base: BaseParameters) -> Parameters:
+    """Give standard parameters of these base ones, the others zero; friction at least zero."""
+    model = problem.base.model
+    standard = np.zeros(len(model.parameters))
+    standard[list(problem.base.kept)] = base
+    friction = [parameter.symbol.startswith("FC") for parameter in model.parameters]
+    return np.where(friction, np.maximum(standard, 0.0), standard)
+
+
+def _first(problem: Problem) -> BaseParameters:
+    """Fit every spring alone: rigid columns, with the first order of the compliance beside them."""
+    joints, size = flexible_joints(problem), len(problem.plan.columns)
+    rows = SpringRows(problem.plan, joints, [motion.recipe for motion in problem.motions])
+    seen = problem.observed(rows=rows)
+    fitted = _fitted(problem, seen)
+    found = weighted(seen.scored_factors(fitted), seen.columns_of, size + 3 * len(joints)).solved()
+    base, ratios = found[:size].copy(), found[size:].reshape(-1, 3)
+    mechanism = mechanism_of(problem.base.model, standard_of(problem, base))
+    inertia = np.diagonal(mechanism.mass_matrices(seen.positions), axis1=1, axis2=2).mean(axis=0)[joints]
+    low, high = ROTOR_SHARES
+    _check_compliance(joints, inertia, ratios[:, 0])
+    rotors = np.clip(ratios[:, 1] / ratios[:, 0], low * inertia, high * inertia)
+    for joint, rotor, stiffness in zip(joints, rotors, (inertia - rotors) / ratios[:, 0], strict=True):
+        base[column_of(problem.plan, ROTOR, joint)] = rotor
+        base[column_of(problem.plan, STIFFNESS, joint)] = stiffness
+    return base
+
+
+def _check_compliance(joints: np.ndarray, inertia: Vector, squares: Vector) -> None:
+    """Refuse springs under which the link would move ahead of its motor."""
+    rigid = [int(joint) + 1 for joint, moved, square in zip(joints, inertia, squares, strict=True) if min(moved, square) <= 0.0]
+    if rigid:
+        raise ExcitationError(
+            f"the log does not show that joint {rigid[0]} is flexible: its compliance is not positive",
+            evidence={"joints": rigid, "compliance_times_inertia_s2": [float(f"{square:.3g}") for square in squares]},
+            remedy="leave these joints out of flexible_joints, or let them move with frequencies up to their mode",
+        )
+
+
+def _with_springs(problem: Problem, found: BaseParameters, before: BaseParameters, number: int) -> BaseParameters:
+    """Give what was found, with springs not too far from those before, and no negative damping."""
+    base = found.copy()
+    for joint in flexible_joints(problem):
+        stiff, damp, rotor = (column_of(problem.plan, symbol, joint) for symbol in (STIFFNESS, DAMPING, ROTOR))
+        was = before[stiff]
+        base[stiff] = np.clip(found[stiff], was / MOST_CHANGE, was * MOST_CHANGE) if found[stiff] != 0.0 else was
+        base[damp] = max(found[damp], 0.0) if number >= UNDAMPED else 0.0
+        base[rotor] = max(found[rotor], ROTOR_SHARES[0] * before[rotor])
+    return base

@@ -1,0 +1,161 @@
+"""Simulate arms whose joints give way, in MuJoCo: a motor, a spring with a damper, and the link behind it.
+
+The motor is a hinge with the rotor's inertia, and the link turns about the same axis by what the spring gives
+way. A controller on the motors' side pulls them along many sines. The engine steps every 0.1 ms.
+"""
+
+from dataclasses import dataclass, replace
+
+import mujoco
+import numpy as np
+
+from veritorque.core.log.model import JointLog
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.model import RobotModel
+
+STEP, RATE = 1e-4, 1000.0
+ENCODER = np.deg2rad(1e-3)
+"""Noise of the encoders, rad."""
+
+
+@dataclass(frozen=True)
+class FlexibleArm:
+    """Describe an arm of one horizontal axis, or of a vertical and two horizontal ones."""
+
+    alphas: tuple[float, ...]
+    lengths: tuple[float, ...]
+    masses: tuple[float, ...]
+    centres: tuple[tuple[float, float, float], ...]
+    inertias: tuple[tuple[float, float, float], ...]
+    """Of the links about their mass centres, kg m2."""
+    rotors: tuple[float, ...]
+    """Rotor inertias, kg m2."""
+    seen: tuple[float, ...]
+    """Inertias that the springs see on the way, about: kg m2."""
+    viscous: tuple[float, ...]
+    coulomb: tuple[float, ...]
+    mode_hz: tuple[float, ...]
+    """Frequency at which motor and link swing against each other; infinite for a rigid joint."""
+    damping_ratio: float = 0.02
+
+    @property
+    def joints(self) -> int:
+        return len(self.masses)
+
+    @property
+    def stiffness(self) -> np.ndarray:
+        seen, rotors = np.array(self.seen), np.array(self.rotors)
+        return (2.0 * np.pi * np.array(self.mode_hz)) ** 2 * seen * rotors / (seen + rotors)
+
+    @property
+    def damping(self) -> np.ndarray:
+        return 2.0 * self.damping_ratio * self.stiffness / (2.0 * np.pi * np.array(self.mode_hz))
+
+    def with_mode(self, *hertz: float) -> "FlexibleArm":
+        return replace(self, mode_hz=hertz if len(hertz) > 1 else hertz * self.joints)
+
+    @property
+    def robot(self) -> RobotModel:
+        rows = [
+            {"type": "revolute", "alpha": alpha, "d": length, "r": 0.0, "theta_offset": 0.0}
+            for alpha, length in zip(self.alphas, self.lengths, strict=True)
+        ]
+        return robot_from_description({"name": "flexible", "joints": rows, "gravity": [0.0, 0.0, -9.81]})
+
+    def engine(self) -> mujoco.MjModel:
+        inner = ""
+        for j in reversed(range(self.joints)):
+            inertial = 'mass="%r" pos="%r %r %r" diaginertia="%r %r %r"' % (
+                self.masses[j], *self.centres[j], *self.inertias[j],
+            )
+            motor = (
+                f'<joint name="m{j}" type="hinge" axis="0 0 1" armature="{self.rotors[j]!r}"'
+                f' damping="{self.viscous[j]!r}" frictionloss="{self.coulomb[j]!r}"/>'
+            )
+            place = f'pos="{self.lengths[j]!r} 0 0" euler="{self.alphas[j]!r} 0 0"'
+            if np.isinf(self.mode_hz[j]):
+                inner = f"<body {place}>{motor}<inertial {inertial}/>{inner}</body>"
+                continue
+            spring = (
+                f'<joint name="s{j}" type="hinge" axis="0 0 1" stiffness="{float(self.stiffness[j])!r}"'
+                f' damping="{float(self.damping[j])!r}"/>'
+            )
+            link = f"<body>{spring}<inertial {inertial}/>{inner}</body>"
+            light = '<inertial mass="1e-6" pos="0 0 0" diaginertia="1e-9 1e-9 1e-9"/>'
+            inner = f"<body {place}>{motor}{light}{link}</body>"
+        return mujoco.MjModel.from_xml_string(
+            f'<mujoco><compiler angle="radian" eulerseq="xyz"/><option timestep="{STEP}" gravity="0 0 -9.81"'
+            f' integrator="implicitfast"/><worldbody>{inner}</worldbody></mujoco>'
+        )
+
+
+ONE = FlexibleArm(
+    (np.pi / 2,), (0.0,), (6.0,), ((0.25, 0.02, 0.0),), ((0.02, 0.25, 0.24),), (0.5,), (0.62,), (3.0,), (2.0,), (12.0,)
+)
+THREE = FlexibleArm(
+    (0.0, np.pi / 2, 0.0),
+    (0.0, 0.1, 0.4),
+    (8.0, 6.0, 3.0),
+    ((0.02, 0.0, -0.1), (0.2, 0.02, 0.01), (0.15, -0.01, 0.02)),
+    ((0.08, 0.07, 0.06), (0.03, 0.15, 0.16), (0.01, 0.06, 0.065)),
+    (0.9, 1.0, 0.15),
+    (1.3, 1.3, 0.13),
+    (6.0, 5.0, 2.0),
+    (4.0, 4.0, 1.5),
+    (12.0, 12.0, 12.0),
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Recorded:
+    time: np.ndarray
+    position: np.ndarray
+    torque: np.ndarray
+    link: np.ndarray
+    """Where the links were: no log shows it."""
+
+    def log(self, seed: int, encoder: float = ENCODER, torque_share: float = 0.002) -> JointLog:
+        rng = np.random.default_rng(seed)
+        position = self.position + encoder * rng.normal(size=self.position.shape)
+        spread = torque_share * self.torque.std(axis=0)
+        torque = self.torque + spread * rng.normal(size=self.torque.shape)
+        return log_from_arrays("flexible", self.time, position, torque)
+
+
+def recorded(
+    arm: FlexibleArm, highest_hz: float, seconds: float = 20.0, seed: int = 1, amplitude: float = 1.0, hold: int = 1
+) -> Recorded:
+    """Record motors and their torques while they follow sines up to a frequency; the controller acts every `hold` steps."""
+    model = arm.engine()
+    data = mujoco.MjData(model)
+    rng = np.random.default_rng(seed)
+    n = arm.joints
+    motors = [model.joint(f"m{j}").qposadr[0] for j in range(n)]
+    springs = [-1 if np.isinf(arm.mode_hz[j]) else model.joint(f"s{j}").qposadr[0] for j in range(n)]
+    time = np.arange(round(seconds / STEP)) * STEP
+    slow, fast = np.linspace(0.1, 1.0, 8), np.geomspace(1.5, highest_hz, 24)
+    hertz = np.concatenate([slow, fast])
+    sizes = amplitude * np.concatenate([0.25 / np.sqrt(slow), 4.0 / (2 * np.pi * fast) ** 1.75])
+    reference = np.stack(
+        [np.sin(2 * np.pi * np.outer(time, hertz) + rng.uniform(0, 2 * np.pi, len(hertz))) @ sizes for _ in range(n)], 1
+    ) * (1.0 - np.exp(-((time[:, None] / 0.3) ** 2)))
+    rate = np.gradient(reference, STEP, axis=0)
+    inertia = np.array(arm.seen) + np.array(arm.rotors)
+    kp, kd = 400.0 * inertia, 28.0 * inertia
+    every = round(1.0 / (RATE * STEP))
+    keep = len(time) // every
+    position, torque, link = np.zeros((3, keep, n))
+    mujoco.mj_forward(model, data)
+    command = np.zeros(n)
+    for k in range(len(time)):
+        q, dq = data.qpos[motors], data.qvel[motors]
+        if k % hold == 0:
+            command = kp * (reference[k] - q) + kd * (rate[k] - dq)
+        if k % every == 0:
+            row = k // every
+            position[row], torque[row] = q, command
+            link[row] = q + [0.0 if s < 0 else data.qpos[s] for s in springs]
+        data.qfrc_applied[motors] = command
+        mujoco.mj_step(model, data)
+    return Recorded(time[::every][:keep], position, torque, link)
