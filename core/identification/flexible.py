@@ -1,21 +1,61 @@
 """Fit a robot with springs between motors and links, and say what is known of every spring.
 
 The first estimate takes the links to be where the torques say they are. Then the log is simulated with motors
-and links apart.
+and links apart. Noise outweighs the motion far above the modes, so that the filter follows them.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Final
 
 import numpy as np
 
-from ..arrays import JointVector
-from ..dynamics.terms.flexible_joints import FlexibleJoints
-from ..estimate.flexible_start import FlexibleStart, begin
+from ..arrays import BaseParameters, JointSeries, Parameters, Samples, SquareMatrix, Vector
+from ..dynamics.terms.flexible_joints import DAMPING, STIFFNESS, FlexibleJoints
+from ..errors import ExcitationError
+from ..estimate.flexible_start import FlexibleStart, begin, flexible_joints, standard_of, transmission_of
 from ..estimate.problem import Problem
-from ..reduction.base import base_model
+from ..reduction.base import BaseModel, base_model
+from ..regressor.eliminated import column_of
+from ..signals.condition import Motion, condition
+from ..signals.recipe import FilterOptions
+from ..simulation.closed_loop.springs import fastest, links_of
+from ..simulation.mechanism import mechanism_of
+from ..validation.springs_seen import HIGHEST_SHARE, reasons_unseen, torque_share
+
+BAND_OVER_MODE: Final = 1.6
+"""Parallel cut-off over the highest mode: the mode and what lies around it pass."""
+POSITIONS_OVER_BAND: Final = 3.0
+"""Cut-off of positions over that: it bends what passes by less than 1e-5."""
+SETTLED: Final = 0.15
+"""Relative change of the band below which it follows the modes."""
+ROUNDS: Final = 5
+"""Bands at most: from a tenth of the mode each round finds more of it."""
 
 
-def with_springs(problem: Problem, joints: tuple[int, ...]) -> FlexibleStart:
+@dataclass(frozen=True)
+class SpringValue:
+    """Hold a number with its standard deviation."""
+
+    name: str
+    value: float
+    standard_deviation: float
+    unit: str
+
+
+@dataclass(frozen=True, eq=False)
+class FlexibleJoint:
+    """Hold what is known of a flexible joint."""
+
+    joint: int
+    """From 1."""
+    quantities: tuple[SpringValue, ...]
+    """Stiffness, damping, inertias of motor and link, frequencies."""
+    evidence: Mapping[str, float]
+    """The numbers by which it is seen."""
+
+
+def with_springs(problem: Problem, joints: tuple[int, ...], options: FilterOptions) -> FlexibleStart:
     """Give the problem in which these joints are flexible, and where it begins.
 
     Raises
@@ -23,11 +63,179 @@ def with_springs(problem: Problem, joints: tuple[int, ...]) -> FlexibleStart:
     ExcitationError
         If the logs do not show that they are.
     """
-    model = problem.base.model.with_term(FlexibleJoints(joints))
-    begun = begin(replace(problem, base=base_model(model)))
+    base = base_model(problem.base.model.with_term(FlexibleJoints(joints)))
+    own = replace(problem, base=base)
+    if options.cutoff_hz is not None:
+        return _sized(_checked(begin(own)))
+    band = max(motion.recipe.motion_band_hz for motion in problem.motions)
+    for _ in range(ROUNDS):
+        begun = _checked(begin(replace(own, motions=_conditioned(own, options, band))))
+        wanted = BAND_OVER_MODE * _highest_hz(begun)
+        if abs(wanted - band) <= SETTLED * band:
+            break
+        band = wanted
+    return _sized(begun)
+
+
+def _conditioned(problem: Problem, options: FilterOptions, band_hz: float) -> tuple[Motion, ...]:
+    """Condition the logs anew, with a filter that passes so much."""
+    robot = problem.base.model.robot
+
+    def within(motion: Motion) -> FilterOptions:
+        rate = motion.log.rate_hz
+        band = min(band_hz, HIGHEST_SHARE * rate)
+        positions = options.position_cutoff_hz or min(POSITIONS_OVER_BAND * band, 0.4 * rate)
+        return replace(options, cutoff_hz=band, position_cutoff_hz=positions)
+
+    return tuple(
+        condition(motion.log, robot, within(motion), blocks=motion.blocks) for motion in problem.motions
+    )
+
+
+def _highest_hz(begun: FlexibleStart) -> float:
+    problem = begun.problem
+    mechanism = mechanism_of(problem.base.model, standard_of(problem, begun.base))
+    return fastest(mechanism, _positions(problem)) / (2.0 * np.pi)
+
+
+def _positions(problem: Problem) -> JointSeries:
+    """Give some positions of every motion."""
+    return np.vstack([next(motion.tiles()).state.position[::200] for motion in problem.motions])
+
+
+def _checked(begun: FlexibleStart) -> FlexibleStart:
+    """Refuse modes that the sampling does not show: they would be simulated for long, to no end."""
+    highest, rate = _highest_hz(begun), min(motion.log.rate_hz for motion in begun.problem.motions)
+    if highest <= HIGHEST_SHARE * rate:
+        return begun
     own = begun.transmission(begun.base)
-    sizes = dict(problem.sizes)
-    for joint, stiffness, rotor in zip(joints, own.stiffness, own.rotor, strict=True):
-        sizes[f"KS{joint}"] = float(stiffness)
-        sizes[f"DS{joint}"] = float(np.sqrt(stiffness * rotor))
+    raise unseen(
+        [int(joint) + 1 for joint in own.joints],
+        {"highest_mode_hz": highest, "rate_hz": rate, "stiffness": [float(f"{k:.3g}") for k in own.stiffness]},
+        f"the mode at {highest:.3g} Hz is above {HIGHEST_SHARE:g} times the rate of {rate:.4g} Hz",
+    )
+
+
+def unseen(joints: list[int], evidence: Mapping[str, object], why: str) -> ExcitationError:
+    """Say that the logs do not show springs."""
+    named = f"joint {joints[0]} is" if len(joints) == 1 else f"joints {', '.join(map(str, joints))} are"
+    return ExcitationError(
+        f"the logs do not show that {named} flexible: {why}",
+        evidence=dict(evidence),
+        remedy="leave rigid joints out of flexible_joints, or let all joints move with frequencies up to their "
+        f"modes, sampled at more than {1.0 / HIGHEST_SHARE:.2g} times these",
+    )
+
+
+def _sized(begun: FlexibleStart) -> FlexibleStart:
+    """Say what counts as one unit of a spring in a prior."""
+    own, sizes = begun.transmission(begun.base), dict(begun.problem.sizes)
+    for joint, stiffness, rotor in zip(own.joints, own.stiffness, own.rotor, strict=True):
+        sizes[f"{STIFFNESS}{joint + 1}"] = float(stiffness)
+        sizes[f"{DAMPING}{joint + 1}"] = float(np.sqrt(stiffness * rotor))
     return replace(begun, problem=replace(begun.problem, sizes=sizes))
+
+
+def springs_of(
+    problem: Problem, base: BaseParameters, standard: Parameters, covariance: SquareMatrix
+) -> tuple[FlexibleJoint, ...]:
+    """Give what is known of every flexible joint; nothing where all are rigid.
+
+    Raises
+    ------
+    ExcitationError
+        If the logs do not show one of the springs.
+    """
+    joints = flexible_joints(problem)
+    if not len(joints):
+        return ()
+    found = _Springs(problem, base, standard, covariance)
+    springs = tuple(found.of(joint) for joint in joints)
+    reasons = {spring.joint: "; ".join(reasons_unseen(spring.evidence)) for spring in springs}
+    hidden = [spring for spring in springs if reasons[spring.joint]]
+    if hidden:
+        raise unseen(
+            [spring.joint for spring in hidden],
+            {f"joint_{spring.joint}": dict(spring.evidence) for spring in hidden},
+            " ".join(f"of joint {spring.joint} {reasons[spring.joint]}." for spring in hidden),
+        )
+    return springs
+
+
+class _Springs:
+    """Compute quantities of springs with deviations."""
+
+    def __init__(
+        self, problem: Problem, base: BaseParameters, standard: Parameters, covariance: SquareMatrix
+    ) -> None:
+        self.problem, self.base, self.covariance = problem, base, covariance
+        self.positions = _positions(problem)
+        self.inertias = self._inertias(problem.base, standard)
+
+    def _inertias(self, model: BaseModel, standard: Parameters) -> Vector:
+        """Give the median inertia of every joint's links, and its derivatives by the base parameters."""
+        changes = [1e-3 * max(abs(value), 1e-3) for value in self.base]
+        units = np.eye(len(standard))
+
+        def of(at: Parameters) -> Vector:
+            mass = links_of(mechanism_of(model.model, at)).mass_matrices(self.positions)
+            return np.asarray(np.median(np.diagonal(mass, axis1=1, axis2=2), axis=0))
+
+        own = of(standard)
+        slopes = [
+            (of(standard + change * units[kept]) - own) / change
+            for kept, change in zip(model.kept, changes, strict=True)
+        ]
+        return np.column_stack([own, *slopes])
+
+    def of(self, joint: int) -> FlexibleJoint:
+        """Give what is known of a joint (from 0)."""
+        plan = self.problem.plan
+        stiff, damp, rotor = (column_of(plan, symbol, joint) for symbol in (STIFFNESS, DAMPING, "IA"))
+        units = np.eye(len(self.base))
+        k, motor, link = self.base[stiff], self.base[rotor], self.inertias[joint, 0]
+        slope = self.inertias[joint, 1:]
+        antiresonance = np.sqrt(k / link) / (2.0 * np.pi)
+        natural = np.sqrt(k / link + k / motor) / (2.0 * np.pi)
+        by_k, by_link = units[stiff] / (2.0 * k), -slope / (2.0 * link)
+        share = link / (motor + link)
+        rows = [
+            ("stiffness", k, units[stiff], plan.model.parameters[plan.columns[stiff]].unit),
+            ("damping", self.base[damp], units[damp], plan.model.parameters[plan.columns[damp]].unit),
+            ("motor_inertia", motor, units[rotor], plan.model.parameters[plan.columns[rotor]].unit),
+            ("link_inertia", link, slope, plan.model.parameters[plan.columns[rotor]].unit),
+            ("antiresonance", antiresonance, antiresonance * (by_k + by_link), "Hz"),
+            (
+                "natural",
+                natural,
+                natural * (by_k + (1.0 - share) * by_link - share * units[rotor] / (2.0 * motor)),
+                "Hz",
+            ),
+        ]
+        quantities = tuple(
+            SpringValue(name, float(value), float(np.sqrt(max(by @ self.covariance @ by, 0.0))), unit)
+            for name, value, by, unit in rows
+        )
+        return FlexibleJoint(joint + 1, quantities, self._evidence(joint, quantities))
+
+    def _evidence(self, joint: int, quantities: tuple[SpringValue, ...]) -> dict[str, float]:
+        known = {quantity.name: quantity for quantity in quantities}
+        low, high = known["antiresonance"].value, known["natural"].value
+        stiffness = known["stiffness"]
+        shares = [
+            torque_share(_torque(motion)[:, joint], motion.log.rate_hz, low, high)
+            for motion in self.problem.motions
+        ]
+        return {
+            "natural_hz": high,
+            "antiresonance_hz": low,
+            "rate_hz": min(motion.log.rate_hz for motion in self.problem.motions),
+            "stiffness_deviation_percent": 100.0 * stiffness.standard_deviation / stiffness.value,
+            "torque_share_percent": 100.0 * max(shares),
+        }
+
+
+def _torque(motion: Motion) -> JointSeries:
+    """Give the torque of the longest stretch of a motion."""
+    segment = max(motion.segments, key=lambda one: one.samples)
+    return segment.effort(0, segment.kept)[0]

@@ -29,7 +29,7 @@ from ..validation.mass_matrix import check_mass_matrix, pseudo_inertia_eigenvalu
 from ..validation.scores import reversals_percent, scores, total_percent
 from .choice import SPARED, USUAL, Choice, choose
 from .convergence import Convergence, converge
-from .flexible import with_springs
+from .flexible import springs_of, with_springs
 from .options import IdentifyOptions
 from .result import Identification
 
@@ -97,7 +97,7 @@ def _fit(problem: Problem, options: IdentifyOptions, tell: Progress, observation
     tell("estimate", 0.6)
     asked = options.estimate
     scales = torque_scales(observation, observation.parts(problem.held_out)[0])
-    flexible = with_springs(problem, asked.flexible_joints) if asked.flexible_joints else None
+    flexible = with_springs(problem, asked.flexible_joints, options.filter) if asked.flexible_joints else None
     if flexible is not None:
         problem, observation = flexible.problem, flexible.differentiated(flexible.base)
     simulation = simulation_setup(problem.base, problem.motions, asked.simulation)
@@ -133,6 +133,7 @@ def judge(logs: tuple[JointLog, ...], found: Fit, tell: Progress, mapper: Mapper
     fitted, held = observation.parts(problem.held_out)
     tell("assess", 0.7)
     precision = infer(system, data.memory, data.columns_of, answer.base, prior=problem.prior)
+    springs = springs_of(problem, answer.base, answer.standard, precision.covariance)
     essential = essential_parameters(system, precision)
     kept = essential.kept if options.essential else None
     if kept is not None:
@@ -149,6 +150,7 @@ def judge(logs: tuple[JointLog, ...], found: Fit, tell: Progress, mapper: Mapper
         logs=logs,
         motions=problem.motions,
         base=base,
+        flexible_joints=springs,
         observation=observation,
         estimate=answer,
         precision=precision,

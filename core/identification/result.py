@@ -21,6 +21,7 @@ from ..validation.mass_matrix import MassMatrixCheck
 from ..validation.scores import JointScore
 from .choice import Choice
 from .convergence import Convergence
+from .flexible import FlexibleJoint
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,6 +72,8 @@ class Identification:
     """The parameters over time; None where they were not followed."""
     endogeneity: Endogeneity | None
     """What instruments tell of errors in the measured motion; None where there are none."""
+    flexible_joints: tuple[FlexibleJoint, ...]
+    """What is known of springs between motors and links; none where all joints are rigid."""
     choice: Choice | None
     """Why this estimator, where the choice was left open."""
     attenuation: Attenuation

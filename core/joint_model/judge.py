@@ -7,29 +7,20 @@ from collections.abc import Iterable, Mapping
 from typing import Final
 
 import numpy as np
-from scipy.signal import welch
 
 from ..arrays import Samples, Vector
 from ..errors import ExcitationError
+from ..validation.springs_seen import HIGHEST_SHARE, reasons_unseen, torque_share
 from .orders import TIME_UNIT, Quantity, differences
 from .record import JointRecord
 from .refined_iv import Fitted, residual
 from .result import FoundModel, HeldOut, Known
 
-HIGHEST_SHARE: Final = 0.3
-"""Mode over the rate above which it is refused: of a faster one a period has three samples, and what holds
-between samples decides the answer."""
-WORST_PERCENT: Final = 10.0
-"""Standard deviation of the stiffness, % of it, above which it is not known. Set by hand."""
 CLEAR: Final = 3.0
 """Standard deviations by which held-out innovations have to fall, and below zero from which a friction or
 damping is impossible."""
 NEGLIGIBLE: Final = 1e-3
 """Share of the torque's RMS below which friction or damping of either sign is none."""
-LEAST_TORQUE: Final = 0.05
-"""Share of the torque's RMS around the mode below which noise makes the torque there. Set by hand."""
-AROUND: Final = (0.8, 1.25)
-"""The band around antiresonance and mode, as shares of these."""
 MANY_TURNS: Final = 10.0
 """Reversals per second from which short stands between them matter. A slide with 0.6 has the published
 friction, a simulated joint with 2 its own; others with 95 have inertias 1 to 4 % off. Set by hand."""
@@ -164,7 +155,8 @@ def comparison(flexible: FoundModel, rigid: FoundModel, record: JointRecord) -> 
         "antiresonance_hz": float(antiresonance),
         "rate_hz": 1.0 / record.step,
         "stiffness_deviation_percent": 100.0 * deviation / abs(stiffness),
-        "torque_share_percent": 100.0 * _torque_share(record, float(antiresonance), float(natural)),
+        "torque_share_percent": 100.0
+        * torque_share(record.torque, 1.0 / record.step, float(antiresonance), float(natural)),
         "innovation_ratio": float(
             np.sqrt(np.mean(flexible.held_out.innovations) / np.mean(rigid.held_out.innovations))
         ),
@@ -173,28 +165,12 @@ def comparison(flexible: FoundModel, rigid: FoundModel, record: JointRecord) -> 
 
 
 def _reasons(evidence: Mapping[str, float]) -> Iterable[str]:
-    natural, rate = evidence["natural_hz"], evidence["rate_hz"]
-    percent, share = evidence["stiffness_deviation_percent"], evidence["torque_share_percent"]
+    yield from reasons_unseen(evidence)
     gain = evidence["innovation_gain_deviations"]
-    if natural > HIGHEST_SHARE * rate:
-        yield f"the mode at {natural:.3g} Hz is above {HIGHEST_SHARE:g} times the rate of {rate:.4g} Hz"
-    if not percent <= WORST_PERCENT:
-        yield f"the stiffness is known to {percent:.3g} % only, not to {WORST_PERCENT:g} %"
-    if share < 100.0 * LEAST_TORQUE:
-        yield f"the torque has {share:.2g} % of its RMS around the mode, less than {100.0 * LEAST_TORQUE:g} %"
     if not gain >= CLEAR:
         yield (
             f"it predicts held-out rows no better than the rigid model ({gain:.2g} deviations, not {CLEAR:g})"
         )
-
-
-def _torque_share(record: JointRecord, low: float, high: float) -> float:
-    """Give the RMS of the torque between antiresonance and mode, as a share of its whole RMS."""
-    frequency, density = welch(
-        record.torque, 1.0 / record.step, nperseg=min(len(record.torque), 4096), detrend="constant"
-    )
-    inside = (frequency >= AROUND[0] * low) & (frequency <= AROUND[1] * high)
-    return float(np.sqrt(density[inside].sum() / density.sum()))
 
 
 def crossover_hz(fitted: Fitted) -> float:

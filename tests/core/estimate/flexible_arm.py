@@ -71,7 +71,7 @@ class FlexibleArm:
             )
             motor = (
                 f'<joint name="m{j}" type="hinge" axis="0 0 1" armature="{self.rotors[j]!r}"'
-                f' damping="{self.viscous[j]!r}" frictionloss="{self.coulomb[j]!r}"/>'
+                f' damping="{self.viscous[j]!r}" frictionloss="{self.coulomb[j]!r}" solreffriction="0.0005 1" solimpfriction="0.999 0.9999 0.001"/>'
             )
             place = f'pos="{self.lengths[j]!r} 0 0" euler="{self.alphas[j]!r} 0 0"'
             if np.isinf(self.mode_hz[j]):
