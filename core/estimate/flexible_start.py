@@ -23,8 +23,10 @@ STEPS: Final = 9
 """Gauss-Newton steps: from half the stiffness, six leave less than the noise does."""
 UNDAMPED: Final = 3
 """The first of them take the damping as zero: from far off it is of any sign."""
-MOST_CHANGE: Final = 2.0
+MOST_CHANGE: Final = 3.0
 """Factor by which one step changes a stiffness at most."""
+HIGHEST_OVER_BAND: Final = 3.0
+"""Largest mode to begin with, as a multiple of what the filter passes."""
 ROTOR_SHARES: Final = (0.02, 0.98)
 """Least and largest share of a rotor in its joint's whole inertia to begin with."""
 
@@ -123,24 +125,22 @@ def _first(problem: Problem) -> BaseParameters:
     base, ratios = found[:size].copy(), found[size:].reshape(-1, 3)
     mechanism = mechanism_of(problem.base.model, standard_of(problem, base))
     inertia = np.diagonal(mechanism.mass_matrices(seen.positions), axis1=1, axis2=2).mean(axis=0)[joints]
-    low, high = ROTOR_SHARES
-    _check_compliance(joints, inertia, ratios[:, 0])
-    rotors = np.clip(ratios[:, 1] / ratios[:, 0], low * inertia, high * inertia)
-    for joint, rotor, stiffness in zip(joints, rotors, (inertia - rotors) / ratios[:, 0], strict=True):
-        base[column_of(problem.plan, ROTOR, joint)] = rotor
-        base[column_of(problem.plan, STIFFNESS, joint)] = stiffness
-    return base
-
-
-def _check_compliance(joints: np.ndarray, inertia: Vector, squares: Vector) -> None:
-    """Refuse springs under which the link would move ahead of its motor."""
-    rigid = [int(joint) + 1 for joint, moved, square in zip(joints, inertia, squares, strict=True) if min(moved, square) <= 0.0]
-    if rigid:
+    if min(inertia) <= 0.0:
         raise ExcitationError(
-            f"the log does not show that joint {rigid[0]} is flexible: its compliance is not positive",
-            evidence={"joints": rigid, "compliance_times_inertia_s2": [float(f"{square:.3g}") for square in squares]},
-            remedy="leave these joints out of flexible_joints, or let them move with frequencies up to their mode",
+            "torque and motion do not belong to masses with springs: a joint's inertia is negative",
+            evidence={"joints": [int(joint) + 1 for joint in joints], "inertia": inertia.tolist()},
+            remedy="check the sign of the torque and the units; let all joints speed up and slow down more",
         )
+    band = max(motion.recipe.cutoff_hz for motion in problem.motions)
+    least = (2.0 * np.pi * HIGHEST_OVER_BAND * band) ** -2
+    known = ratios[:, 0] > least
+    shares = np.divide(ratios[:, 1], ratios[:, 0] * inertia, out=np.full(len(joints), 0.5), where=known)
+    rotors = np.clip(shares, *ROTOR_SHARES) * inertia
+    stiffness = (inertia - rotors) / np.maximum(ratios[:, 0], least)
+    for joint, rotor, spring in zip(joints, rotors, stiffness, strict=True):
+        base[column_of(problem.plan, ROTOR, joint)] = rotor
+        base[column_of(problem.plan, STIFFNESS, joint)] = spring
+    return base
 
 
 def _with_springs(problem: Problem, found: BaseParameters, before: BaseParameters, number: int) -> BaseParameters:
@@ -148,8 +148,21 @@ def _with_springs(problem: Problem, found: BaseParameters, before: BaseParameter
     base = found.copy()
     for joint in flexible_joints(problem):
         stiff, damp, rotor = (column_of(problem.plan, symbol, joint) for symbol in (STIFFNESS, DAMPING, ROTOR))
-        was = before[stiff]
-        base[stiff] = np.clip(found[stiff], was / MOST_CHANGE, was * MOST_CHANGE) if found[stiff] != 0.0 else was
+        base[stiff] = before[stiff] * _factor(found[stiff] / before[stiff])
         base[damp] = max(found[damp], 0.0) if number >= UNDAMPED else 0.0
         base[rotor] = max(found[rotor], ROTOR_SHARES[0] * before[rotor])
     return base
+
+
+def _factor(ratio: float) -> float:
+    """Give the factor on a stiffness whose first-order step leads to such a ratio: the compliance is stepped.
+
+    Examples
+    --------
+    >>> _factor(0.75), _factor(0.0), _factor(5.0)
+    (0.8, 1.0, 3.0)
+    """
+    if ratio == 0.0:
+        return 1.0  # without derivatives nothing was fitted
+    compliance = max(2.0 - ratio, 1.0 / MOST_CHANGE)
+    return min(max(1.0 / compliance, 1.0 / MOST_CHANGE), MOST_CHANGE)

@@ -4,22 +4,25 @@ The first estimate takes the links to be where the torques say they are. Then th
 and links apart. Noise outweighs the motion far above the modes, so that the filter follows them.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
 
-from ..arrays import BaseParameters, JointSeries, Parameters, Samples, SquareMatrix, Vector
+from ..arrays import BaseParameters, JointSeries, Parameters, SquareMatrix, Vector
 from ..dynamics.terms.flexible_joints import DAMPING, STIFFNESS, FlexibleJoints
-from ..errors import ExcitationError
-from ..estimate.flexible_start import FlexibleStart, begin, flexible_joints, standard_of, transmission_of
+from ..errors import ExcitationError, OptionError, VeritorqueError
+from ..estimate.estimate import Estimate
+from ..estimate.flexible_start import FlexibleStart, begin, flexible_joints, standard_of
 from ..estimate.problem import Problem
+from ..estimate.system import weighted
 from ..reduction.base import BaseModel, base_model
 from ..regressor.eliminated import column_of
+from ..regressor.observe import Observation
 from ..signals.condition import Motion, condition
 from ..signals.recipe import FilterOptions
-from ..simulation.closed_loop.springs import fastest, links_of
+from ..simulation.closed_loop.springs import links_of
 from ..simulation.mechanism import mechanism_of
 from ..validation.springs_seen import HIGHEST_SHARE, reasons_unseen, torque_share
 
@@ -29,6 +32,11 @@ POSITIONS_OVER_BAND: Final = 3.0
 """Cut-off of positions over that: it bends what passes by less than 1e-5."""
 SETTLED: Final = 0.15
 """Relative change of the band below which it follows the modes."""
+BANDS: Final = (1.0, 2.5, 6.0)
+"""Bands that are begun with, as multiples of the motion's: near the mode a spring shows most clearly."""
+CLEAR: Final = 3.0
+"""Standard deviations, over blocks of the log, by which the residual has to fall below a rigid arm's."""
+KNOWN, GAIN = "stiffness_deviation_percent", "residual_gain_deviations"
 ROUNDS: Final = 5
 """Bands at most: from a tenth of the mode each round finds more of it."""
 
@@ -63,18 +71,28 @@ def with_springs(problem: Problem, joints: tuple[int, ...], options: FilterOptio
     ExcitationError
         If the logs do not show that they are.
     """
-    base = base_model(problem.base.model.with_term(FlexibleJoints(joints)))
-    own = replace(problem, base=base)
+    own = replace(problem, base=base_model(problem.base.model.with_term(FlexibleJoints(joints))))
     if options.cutoff_hz is not None:
         return _sized(_checked(begin(own)))
     band = max(motion.recipe.motion_band_hz for motion in problem.motions)
+    failure: VeritorqueError | None = None
+    for share in BANDS:
+        try:
+            return _sized(_checked(_followed(own, options, share * band)))
+        except (ExcitationError, OptionError) as error:
+            failure = failure or error
+    raise failure or unseen(list(joints), {}, "no band shows it")
+
+
+def _followed(problem: Problem, options: FilterOptions, band: float) -> FlexibleStart:
+    """Begin with a band, and let it follow the modes that are found."""
     for _ in range(ROUNDS):
-        begun = _checked(begin(replace(own, motions=_conditioned(own, options, band))))
-        wanted = BAND_OVER_MODE * _highest_hz(begun)
-        if abs(wanted - band) <= SETTLED * band:
+        begun = begin(replace(problem, motions=_conditioned(problem, options, band)))
+        wanted = BAND_OVER_MODE * float(np.max(_modes(begun)[1]))
+        if not abs(wanted - band) > SETTLED * band:
             break
         band = wanted
-    return _sized(begun)
+    return begun
 
 
 def _conditioned(problem: Problem, options: FilterOptions, band_hz: float) -> tuple[Motion, ...]:
@@ -92,10 +110,14 @@ def _conditioned(problem: Problem, options: FilterOptions, band_hz: float) -> tu
     )
 
 
-def _highest_hz(begun: FlexibleStart) -> float:
-    problem = begun.problem
-    mechanism = mechanism_of(problem.base.model, standard_of(problem, begun.base))
-    return fastest(mechanism, _positions(problem)) / (2.0 * np.pi)
+def _modes(begun: FlexibleStart) -> tuple[Vector, Vector]:
+    """Give every spring's antiresonance and natural frequency, Hz; not finite where an inertia is negative."""
+    problem, own = begun.problem, begun.transmission(begun.base)
+    mechanism = links_of(mechanism_of(problem.base.model, standard_of(problem, begun.base)))
+    mass = mechanism.mass_matrices(_positions(problem))
+    link = np.median(np.diagonal(mass, axis1=1, axis2=2), axis=0)[own.joints]
+    squares = np.where(link > 0.0, own.stiffness / np.where(link > 0.0, link, 1.0), np.inf)
+    return np.sqrt(squares) / (2.0 * np.pi), np.sqrt(squares + own.stiffness / own.rotor) / (2.0 * np.pi)
 
 
 def _positions(problem: Problem) -> JointSeries:
@@ -104,16 +126,37 @@ def _positions(problem: Problem) -> JointSeries:
 
 
 def _checked(begun: FlexibleStart) -> FlexibleStart:
-    """Refuse modes that the sampling does not show: they would be simulated for long, to no end."""
-    highest, rate = _highest_hz(begun), min(motion.log.rate_hz for motion in begun.problem.motions)
-    if highest <= HIGHEST_SHARE * rate:
-        return begun
-    own = begun.transmission(begun.base)
-    raise unseen(
-        [int(joint) + 1 for joint in own.joints],
-        {"highest_mode_hz": highest, "rate_hz": rate, "stiffness": [float(f"{k:.3g}") for k in own.stiffness]},
-        f"the mode at {highest:.3g} Hz is above {HIGHEST_SHARE:g} times the rate of {rate:.4g} Hz",
-    )
+    """Refuse at once springs that the sampling or the torque hides: they would be simulated to no end."""
+    low, high = _modes(begun)
+    joints = [int(joint) for joint in begun.transmission(begun.base).joints]
+    evidence = {
+        joint + 1: _seen_by(begun.problem.motions, joint, float(at), float(mode)) | {KNOWN: 0.0}
+        for joint, at, mode in zip(joints, low, high, strict=True)
+    }
+    _refuse_hidden(evidence, {joint: list(reasons_unseen(own)) for joint, own in evidence.items()})
+    return begun
+
+
+def _refuse_hidden(evidence: Mapping[int, Mapping[str, float]], reasons: Mapping[int, list[str]]) -> None:
+    hidden = [joint for joint, own in reasons.items() if own]
+    if hidden:
+        why = "; ".join(f"joint {joint}: {', '.join(reasons[joint])}" for joint in hidden)
+        raise unseen(hidden, {f"joint_{joint}": dict(evidence[joint]) for joint in hidden}, why)
+
+
+def _seen_by(motions: Sequence[Motion], joint: int, low_hz: float, high_hz: float) -> dict[str, float]:
+    """Give what tells whether logs show a mode."""
+    seen = np.isfinite(high_hz)
+    shares = [
+        torque_share(_torque(motion)[:, joint], motion.log.rate_hz, low_hz, high_hz) if seen else 0.0
+        for motion in motions
+    ]
+    return {
+        "natural_hz": high_hz,
+        "antiresonance_hz": low_hz,
+        "rate_hz": min(motion.log.rate_hz for motion in motions),
+        "torque_share_percent": 100.0 * max(shares),
+    }
 
 
 def unseen(joints: list[int], evidence: Mapping[str, object], why: str) -> ExcitationError:
@@ -137,9 +180,14 @@ def _sized(begun: FlexibleStart) -> FlexibleStart:
 
 
 def springs_of(
-    problem: Problem, base: BaseParameters, standard: Parameters, covariance: SquareMatrix
+    problem: Problem, estimate: Estimate, covariance: SquareMatrix, observation: Observation
 ) -> tuple[FlexibleJoint, ...]:
     """Give what is known of every flexible joint; nothing where all are rigid.
+
+    Parameters
+    ----------
+    observation
+        The equations of motors and links at this estimate.
 
     Raises
     ------
@@ -149,28 +197,38 @@ def springs_of(
     joints = flexible_joints(problem)
     if not len(joints):
         return ()
-    found = _Springs(problem, base, standard, covariance)
+    found = _Springs(problem, estimate, covariance, observation)
     springs = tuple(found.of(joint) for joint in joints)
-    reasons = {spring.joint: "; ".join(reasons_unseen(spring.evidence)) for spring in springs}
-    hidden = [spring for spring in springs if reasons[spring.joint]]
-    if hidden:
-        raise unseen(
-            [spring.joint for spring in hidden],
-            {f"joint_{spring.joint}": dict(spring.evidence) for spring in hidden},
-            " ".join(f"of joint {spring.joint} {reasons[spring.joint]}." for spring in hidden),
-        )
+    evidence = {spring.joint: spring.evidence for spring in springs}
+    reasons = {joint: list(reasons_unseen(own)) for joint, own in evidence.items()}
+    for joint, own in evidence.items():
+        if not own[GAIN] >= CLEAR:
+            reasons[joint].append(
+                f"it explains the torque no better than a rigid joint ({own[GAIN]:.2g} deviations, not {CLEAR:g})"
+            )
+    _refuse_hidden(evidence, reasons)
     return springs
+
+
+def _squares(observation: Observation, base: BaseParameters, joint: int) -> Vector:
+    """Give the mean squared residual of a joint, block after block."""
+    place = observation.columns_of[joint]
+    factors = [block.moving[joint] for block in observation.blocks]
+    return np.array([factor.residual_square(base[place]) / factor.rows for factor in factors if factor.rows])
 
 
 class _Springs:
     """Compute quantities of springs with deviations."""
 
     def __init__(
-        self, problem: Problem, base: BaseParameters, standard: Parameters, covariance: SquareMatrix
+        self, problem: Problem, estimate: Estimate, covariance: SquareMatrix, observation: Observation
     ) -> None:
-        self.problem, self.base, self.covariance = problem, base, covariance
+        self.problem, self.base, self.covariance = problem, estimate.base, covariance
         self.positions = _positions(problem)
-        self.inertias = self._inertias(problem.base, standard)
+        self.inertias = self._inertias(problem.base, estimate.standard)
+        rigid = problem.observed()
+        least = weighted(rigid.joint_factors(), rigid.columns_of, len(self.base)).solved()
+        self.fits = (rigid, least), (observation, self.base)
 
     def _inertias(self, model: BaseModel, standard: Parameters) -> Vector:
         """Give the median inertia of every joint's links, and its derivatives by the base parameters."""
@@ -220,18 +278,14 @@ class _Springs:
 
     def _evidence(self, joint: int, quantities: tuple[SpringValue, ...]) -> dict[str, float]:
         known = {quantity.name: quantity for quantity in quantities}
-        low, high = known["antiresonance"].value, known["natural"].value
         stiffness = known["stiffness"]
-        shares = [
-            torque_share(_torque(motion)[:, joint], motion.log.rate_hz, low, high)
-            for motion in self.problem.motions
-        ]
+        rigid, flexible = (_squares(observation, base, joint) for observation, base in self.fits)
+        gained = rigid - flexible
+        spread = float(np.std(gained, ddof=1) / np.sqrt(len(gained)))
         return {
-            "natural_hz": high,
-            "antiresonance_hz": low,
-            "rate_hz": min(motion.log.rate_hz for motion in self.problem.motions),
-            "stiffness_deviation_percent": 100.0 * stiffness.standard_deviation / stiffness.value,
-            "torque_share_percent": 100.0 * max(shares),
+            **_seen_by(self.problem.motions, joint, known["antiresonance"].value, known["natural"].value),
+            KNOWN: 100.0 * stiffness.standard_deviation / stiffness.value,
+            GAIN: float(np.mean(gained)) / spread if spread > 0.0 else 0.0,
         }
 
 
