@@ -12,14 +12,18 @@ import numpy as np
 
 from ..arrays import BaseParameters, JointSeries, Parameters, SquareMatrix, Vector
 from ..dynamics.terms.flexible_joints import DAMPING, STIFFNESS, FlexibleJoints
-from ..errors import ExcitationError, OptionError, VeritorqueError
-from ..estimate.estimate import Estimate
+from ..errors import ExcitationError, OptionError, SolverError, VeritorqueError
+from ..estimate.constraints import default_prior
+from ..estimate.estimate import Estimate, estimate
 from ..estimate.flexible_start import FlexibleStart, begin, flexible_joints, standard_of
-from ..estimate.problem import Problem
+from ..estimate.methods.method import Equations, Step
+from ..estimate.options import EstimateOptions
+from ..estimate.problem import ObservedProblem, Problem
+from ..estimate.simulator import SimulationSetup
 from ..estimate.system import weighted
 from ..reduction.base import BaseModel, base_model
 from ..regressor.eliminated import column_of
-from ..regressor.observe import Observation
+from ..regressor.observe import torque_scales
 from ..signals.condition import Motion, condition
 from ..signals.recipe import FilterOptions
 from ..simulation.closed_loop.springs import links_of
@@ -180,14 +184,9 @@ def _sized(begun: FlexibleStart) -> FlexibleStart:
 
 
 def springs_of(
-    problem: Problem, estimate: Estimate, covariance: SquareMatrix, observation: Observation
+    problem: Problem, step: Step, found: Estimate, covariance: SquareMatrix, options: EstimateOptions
 ) -> tuple[FlexibleJoint, ...]:
     """Give what is known of every flexible joint; nothing where all are rigid.
-
-    Parameters
-    ----------
-    observation
-        The equations of motors and links at this estimate.
 
     Raises
     ------
@@ -197,8 +196,10 @@ def springs_of(
     joints = flexible_joints(problem)
     if not len(joints):
         return ()
-    found = _Springs(problem, estimate, covariance, observation)
-    springs = tuple(found.of(joint) for joint in joints)
+    rigid = _rigid(problem, options)
+    flexible = step.data, found.base
+    known = _Springs(problem, found, covariance)
+    springs = tuple(known.of(int(joint), _gain(rigid, flexible, int(joint))) for joint in joints)
     evidence = {spring.joint: spring.evidence for spring in springs}
     reasons = {joint: list(reasons_unseen(own)) for joint, own in evidence.items()}
     for joint, own in evidence.items():
@@ -210,25 +211,50 @@ def springs_of(
     return springs
 
 
-def _squares(observation: Observation, base: BaseParameters, joint: int) -> Vector:
-    """Give the mean squared residual of a joint, block after block."""
-    place = observation.columns_of[joint]
-    factors = [block.moving[joint] for block in observation.blocks]
-    return np.array([factor.residual_square(base[place]) / factor.rows for factor in factors if factor.rows])
+def _squares(data: Equations, base: BaseParameters, joint: int) -> Vector:
+    """Give the mean squared residual of a joint, fitted block after fitted block."""
+    place = data.columns_of[joint]
+    factors = [factors[joint] for factors in data.block_factors]
+    return np.array([factor.residual_square(base[place]) / max(factor.rows, 1) for factor in factors])
+
+
+def _gain(
+    rigid: tuple[Equations, BaseParameters] | None, flexible: tuple[Equations, BaseParameters], joint: int
+) -> float:
+    """Give by how many deviations, over blocks, the simulated torque of a rigid robot is further off."""
+    if rigid is None:
+        return np.inf
+    gained = _squares(*rigid, joint) - _squares(*flexible, joint)
+    spread = float(np.std(gained, ddof=1) / np.sqrt(len(gained)))
+    return float(np.mean(gained)) / spread if spread > 0.0 else 0.0
+
+
+def _rigid(problem: Problem, options: EstimateOptions) -> tuple[Equations, BaseParameters] | None:
+    """Fit the same logs by the same simulation of a rigid robot; None where that diverges."""
+    model, least = problem.base.model, options.by("sdp")
+    plain = replace(model, terms=tuple(term for term in model.terms if not isinstance(term, FlexibleJoints)))
+    own = replace(problem, base=base_model(plain), sizes={})
+    observation = own.observed()
+    data = ObservedProblem(own, observation, simulation=SimulationSetup(options.simulation)).discounted()
+    prior = default_prior(plain, torque_scales(observation, data.fitted))
+    system = weighted(data.factors, data.columns_of, data.size)
+    try:
+        found = estimate(own.base, system, prior, least)
+        moved = data.simulated(found.standard).discounted()
+    except SolverError:
+        return None
+    return moved, weighted(moved.factors, moved.columns_of, moved.size).solved()
 
 
 class _Springs:
     """Compute quantities of springs with deviations."""
 
     def __init__(
-        self, problem: Problem, estimate: Estimate, covariance: SquareMatrix, observation: Observation
+        self, problem: Problem, found: Estimate, covariance: SquareMatrix
     ) -> None:
-        self.problem, self.base, self.covariance = problem, estimate.base, covariance
+        self.problem, self.base, self.covariance = problem, found.base, covariance
         self.positions = _positions(problem)
-        self.inertias = self._inertias(problem.base, estimate.standard)
-        rigid = problem.observed()
-        least = weighted(rigid.joint_factors(), rigid.columns_of, len(self.base)).solved()
-        self.fits = (rigid, least), (observation, self.base)
+        self.inertias = self._inertias(problem.base, found.standard)
 
     def _inertias(self, model: BaseModel, standard: Parameters) -> Vector:
         """Give the median inertia of every joint's links, and its derivatives by the base parameters."""
@@ -246,7 +272,7 @@ class _Springs:
         ]
         return np.column_stack([own, *slopes])
 
-    def of(self, joint: int) -> FlexibleJoint:
+    def of(self, joint: int, gain: float) -> FlexibleJoint:
         """Give what is known of a joint (from 0)."""
         plan = self.problem.plan
         stiff, damp, rotor = (column_of(plan, symbol, joint) for symbol in (STIFFNESS, DAMPING, "IA"))
@@ -274,18 +300,14 @@ class _Springs:
             SpringValue(name, float(value), float(np.sqrt(max(by @ self.covariance @ by, 0.0))), unit)
             for name, value, by, unit in rows
         )
-        return FlexibleJoint(joint + 1, quantities, self._evidence(joint, quantities))
+        return FlexibleJoint(joint + 1, quantities, self._evidence(joint, quantities) | {GAIN: gain})
 
     def _evidence(self, joint: int, quantities: tuple[SpringValue, ...]) -> dict[str, float]:
         known = {quantity.name: quantity for quantity in quantities}
         stiffness = known["stiffness"]
-        rigid, flexible = (_squares(observation, base, joint) for observation, base in self.fits)
-        gained = rigid - flexible
-        spread = float(np.std(gained, ddof=1) / np.sqrt(len(gained)))
         return {
             **_seen_by(self.problem.motions, joint, known["antiresonance"].value, known["natural"].value),
             KNOWN: 100.0 * stiffness.standard_deviation / stiffness.value,
-            GAIN: float(np.mean(gained)) / spread if spread > 0.0 else 0.0,
         }
 
 

@@ -133,7 +133,7 @@ def judge(logs: tuple[JointLog, ...], found: Fit, tell: Progress, mapper: Mapper
     fitted, held = observation.parts(problem.held_out)
     tell("assess", 0.7)
     precision = infer(system, data.memory, data.columns_of, answer.base, prior=problem.prior)
-    springs = springs_of(problem, answer, precision.covariance, observation)
+    springs = springs_of(problem, found.step, answer, precision.covariance, options.estimate)
     essential = essential_parameters(system, precision)
     kept = essential.kept if options.essential else None
     if kept is not None:
