@@ -94,6 +94,31 @@ class OverTime(Open):
     standard_deviation: Annotated[list[list[float]], about("per instant, with what blocks scatter")]
 
 
+class SpringQuantity(Open):
+    """A number of a flexible joint."""
+
+    name: Annotated[
+        Literal["stiffness", "damping", "motor_inertia", "link_inertia", "antiresonance", "natural"],
+        about(
+            "`natural`: motor and link against each other; `antiresonance`: the link alone, motor held; both, and "
+            "the link's inertia, at the median over the motion"
+        ),
+    ]
+    value: float
+    unit: str
+    standard_deviation: float
+    relative_deviation_percent: float | None
+    interval_95: tuple[float, float]
+
+
+class FlexibleJoint(Open):
+    """What is known of a spring between motor and link."""
+
+    joint: int
+    quantities: list[SpringQuantity]
+    evidence: Annotated[dict[str, float | None], about("the numbers by which the logs show the spring")]
+
+
 class Estimation(Open):
     """By which estimator a robot was fitted, and how it ended."""
 
@@ -120,6 +145,9 @@ class Estimation(Open):
     attenuation: Attenuation | None = None
     innovations: Annotated[Innovations | None, about("null where no filter was used")] = None
     over_time: Annotated[OverTime | None, about("null where parameters were not followed")] = None
+    flexible_joints: Annotated[
+        list[FlexibleJoint], about("those of the option of that name; empty where all joints are rigid")
+    ] = Field(default=[])
 
 
 class ModelName(Open):

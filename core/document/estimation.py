@@ -10,8 +10,10 @@ from ..estimate.methods.registry import ESTIMATORS
 from ..estimate.simulator import SimulationSetup
 from ..identification.choice import BIASED
 from ..identification.doubts import LEAST_SQUARES
+from ..identification.flexible import FlexibleJoint
 from ..identification.result import Identification
 from ..precision.endogeneity import SIGNIFICANCE, Endogeneity
+from ..precision.inference import INTERVAL_95
 from ..simulation.control.controller_check import ControllerCheck
 
 
@@ -37,6 +39,26 @@ def estimation_fields(found: Identification) -> dict[str, object]:
         },
         "innovations": None if found.innovations is None else vars(found.innovations),
         "over_time": None if found.track is None else _over_time(found.track),
+        "flexible_joints": [_flexible(joint) for joint in found.flexible_joints],
+    }
+
+
+def _flexible(joint: FlexibleJoint) -> dict[str, object]:
+    """Give what is known of a joint's spring, and the numbers by which the logs show it."""
+    around = INTERVAL_95 * np.array([-1.0, 1.0])
+    return {
+        "joint": joint.joint,
+        "quantities": [
+            vars(quantity)
+            | {
+                "relative_deviation_percent": 100.0 * quantity.standard_deviation / abs(quantity.value)
+                if quantity.value
+                else np.inf,
+                "interval_95": quantity.value + around * quantity.standard_deviation,
+            }
+            for quantity in joint.quantities
+        ],
+        "evidence": dict(joint.evidence),
     }
 
 
@@ -83,6 +105,8 @@ def _statements(found: Identification) -> Iterator[str]:
         yield _foreseen(found.innovations)
     if found.endogeneity is not None:
         yield _difference(found.endogeneity)
+    for joint in found.flexible_joints:
+        yield _springs(joint)
     if found.estimator in LEAST_SQUARES:
         yield from _attenuated(found.attenuation.missed)
 
@@ -114,6 +138,21 @@ def _attenuated(shares: JointVector) -> Iterator[str]:
             f"Noise of positions attenuates the inertias that least squares finds by "
             f"{100.0 * sizes[joint]:.2g} % at most (joint {joint + 1})."
         )
+
+
+def _springs(joint: FlexibleJoint) -> str:
+    """Say what is known of a joint's spring."""
+    known = {quantity.name: quantity for quantity in joint.quantities}
+
+    def told(name: str) -> str:
+        quantity = known[name]
+        return f"{quantity.value:.4g} {quantity.unit} (standard deviation {quantity.standard_deviation:.2g})"
+
+    return (
+        f"Joint {joint.joint} is flexible: stiffness {told('stiffness')}, damping {told('damping')}, rotor "
+        f"{told('motor_inertia')}; motor and link swing against each other at {told('natural')}, the link alone "
+        f"at {told('antiresonance')}."
+    )
 
 
 def _foreseen(told: Innovations) -> str:

@@ -52,6 +52,7 @@ def admit(options: IdentifyOptions, model: DynamicModel, logs: Sequence[KnownLog
     check_different([log.name for log in logs], [log.sha256 for log in logs])
     if options.reference is None:  # otherwise the reference decides which links the model has
         check_links(options.estimate.bounds, model)
+    check_flexible(options.estimate.flexible_joints, model)
     options.validation.chosen(len(logs))
     for log in logs:
         try:
@@ -63,6 +64,39 @@ def admit(options: IdentifyOptions, model: DynamicModel, logs: Sequence[KnownLog
         except VeritorqueError as error:
             error.evidence.setdefault("log", log.name)
             raise
+
+
+def check_flexible(joints: tuple[int, ...], model: DynamicModel) -> None:
+    """Refuse springs at joints that are none, or whose motor the model does not tell from the link.
+
+    Raises
+    ------
+    OptionError
+        If there is no such joint, its motor moves others too, or the model lacks bodies or its rotor.
+    """
+    robot, names = model.robot, {parameter.name for parameter in model.parameters}
+    coupled = {joint for coupling in robot.couplings for joint in coupling.joints}
+    faults = {
+        joint: "the robot has no such joint"
+        if joint > len(robot.joints)
+        else "its motor moves other joints too"
+        if joint in coupled
+        else "the model has no rotor inertia of its motor"
+        if f"IA{joint}" not in names
+        else "the model has no bodies"
+        if "M1" not in names
+        else ""
+        for joint in joints
+    }
+    found = {joint: fault for joint, fault in faults.items() if fault}
+    if found:
+        joint, fault = next(iter(found.items()))
+        raise OptionError(
+            f"joint {joint} cannot be flexible: {fault}",
+            evidence={"pointer": "/options/flexible_joints", "joints": list(found), "of": len(robot.joints)},
+            remedy=f"name joints from 1 to {len(robot.joints)} with a motor and a rotor_inertia of their own, and "
+            "keep the terms rigid_body and rotor_inertia",
+        )
 
 
 def _check_channels(estimator: Estimator, log: KnownLog) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
 from ...dynamics.terms.coulomb import Coulomb
+from ...dynamics.terms.flexible_joints import FlexibleJoints
 from ...dynamics.terms.joint_coupling import MissingCoupling
 from ...dynamics.terms.rotor_inertia_missing import MissingRotor
 from ...errors import RobotError
@@ -22,6 +23,8 @@ from .model_file import model_from_document
 from .terms import named_terms
 
 Document = Mapping[str, Any]
+FLEXIBLE = "flexible_joints"
+"""The term of springs between motors and links, which holds the joints that have one."""
 _STANDARD_NAME: Mapping[type, str] = {MissingRotor: "rotor_inertia", MissingCoupling: "coupling"}
 """What a term that a diagnosis adds is called once the robot declares it."""
 ESSENTIAL = (
@@ -81,7 +84,11 @@ def model_of_result(document: Document, robot: RobotModel) -> DynamicModel:
             evidence={"missing": "/terms", "version": document["provenance"].get("version")},
             remedy="it is of an earlier build: delete its job, and identify the robot from its logs again",
         )
-    return with_widths(standard_model(robot, tuple(names)), tuple(document["coulomb_smoothing_widths"]))
+    plain = tuple(name for name in names if name != FLEXIBLE)
+    model = with_widths(standard_model(robot, plain), tuple(document["coulomb_smoothing_widths"]))
+    if FLEXIBLE not in names:
+        return model
+    return model.with_term(FlexibleJoints(tuple(row["joint"] for row in document["estimation"]["flexible_joints"])))
 
 
 def _uncorrected_model(document: Document) -> IdentifiedRobot:

@@ -18,7 +18,7 @@ from ...robot.description import robot_from_description
 from ...robot.differences import differences
 from ...robot.model import RobotModel
 from .answer import plain_document
-from .reading import model_of_result
+from .reading import FLEXIBLE, model_of_result
 
 Document = Mapping[str, Any]
 
@@ -46,6 +46,12 @@ def reference_from_document(document: Document, robot: RobotModel, name: str) ->
             remedy="name a job that identifies or diagnoses the robot",
         )
     document = plain_document(document)
+    if FLEXIBLE in document.get("terms", ()):
+        raise OptionError(
+            f"the result of {name} has flexible joints, with which no later log is compared",
+            evidence={"reference": name, "terms": document["terms"]},
+            remedy="identify the robot from the earlier log without flexible_joints, and name that job",
+        )
     model = model_of_result(document, robot)
     base = base_model(model)
     rows = {row["name"]: row for row in document["base_parameters"]}
