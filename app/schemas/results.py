@@ -100,8 +100,8 @@ class SpringQuantity(Open):
     name: Annotated[
         Literal["stiffness", "damping", "motor_inertia", "link_inertia", "antiresonance", "natural"],
         about(
-            "`natural`: motor and link against each other; `antiresonance`: the link alone, motor held; both, and "
-            "the link's inertia, at the median over the motion"
+            "`natural`: motor and link against each other; `antiresonance`: the link alone, motor held; both "
+            "with the link's median inertia over the motion"
         ),
     ]
     value: float

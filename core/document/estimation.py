@@ -150,8 +150,8 @@ def _springs(joint: FlexibleJoint) -> str:
 
     return (
         f"Joint {joint.joint} is flexible: stiffness {told('stiffness')}, damping {told('damping')}, rotor "
-        f"{told('motor_inertia')}; motor and link swing against each other at {told('natural')}, the link alone "
-        f"at {told('antiresonance')}."
+        f"{told('motor_inertia')}; motor and link swing against each other at {told('natural')}, the link "
+        f"alone at {told('antiresonance')}."
     )
 
 

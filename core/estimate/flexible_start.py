@@ -27,6 +27,8 @@ MOST_CHANGE: Final = 3.0
 """Factor by which one step changes a stiffness at most."""
 HIGHEST_OVER_BAND: Final = 3.0
 """Largest mode to begin with, as a multiple of what the filter passes."""
+ROWS_PER_UNKNOWN: Final = 3
+"""Rows of a joint away from its reversals per unknown, from which on the others are left out."""
 ROTOR_SHARES: Final = (0.02, 0.98)
 """Least and largest share of a rotor in its joint's whole inertia to begin with."""
 
@@ -57,7 +59,12 @@ def transmission_of(problem: Problem, base: BaseParameters) -> Transmission:
 
     def of(symbol: str) -> Vector:
         names = [problem.base.model.parameters[column].name for column in problem.plan.columns]
-        return np.array([base[names.index(name)] if (name := f"{symbol}{joint + 1}") in names else 0.0 for joint in joints])
+        return np.array(
+            [
+                base[names.index(name)] if (name := f"{symbol}{joint + 1}") in names else 0.0
+                for joint in joints
+            ]
+        )
 
     return Transmission(joints, of(STIFFNESS), of(DAMPING), of(ROTOR), of("FV"), of("FC"), of("OFF"))
 
@@ -65,7 +72,9 @@ def transmission_of(problem: Problem, base: BaseParameters) -> Transmission:
 def flexible_joints(problem: Problem) -> np.ndarray:
     """Give the flexible joints of a problem, from 0."""
     terms = problem.base.model.terms
-    return np.array([joint - 1 for term in terms if isinstance(term, FlexibleJoints) for joint in term.flexible])
+    return np.array(
+        [joint - 1 for term in terms if isinstance(term, FlexibleJoints) for joint in term.flexible]
+    )
 
 
 def begin(problem: Problem) -> FlexibleStart:
@@ -78,18 +87,22 @@ def begin(problem: Problem) -> FlexibleStart:
     """
     base = _first(problem)
     unmoved = problem.observed(rows=_rows(problem, base))
-    solved = weighted(unmoved.scored_factors(_fitted(problem, unmoved)), unmoved.columns_of, len(base)).solved()
+    solved = _solved(problem, unmoved, len(base))
     base = _with_springs(problem, solved, base, 0)
     for number in range(STEPS):
         rows = _differentiated(problem, base, damped=number >= UNDAMPED)
         seen = problem.observed(rows=rows)
-        found = weighted(seen.scored_factors(_fitted(problem, seen)), seen.columns_of, len(base)).solved()
+        found = _solved(problem, seen, len(base))
         base = _with_springs(problem, found, base, number)
     return FlexibleStart(problem, base)
 
 
-def _fitted(problem: Problem, seen: Observation) -> tuple[int, ...]:
-    return seen.parts(problem.held_out)[0]
+def _solved(problem: Problem, seen: Observation, size: int) -> BaseParameters:
+    """Solve by the rows away from reversals, unless they are too few."""
+    fitted = seen.parts(problem.held_out)[0]
+    moving, every = seen.moving_factors(fitted), seen.joint_factors(fitted)
+    enough = all(factor.rows > ROWS_PER_UNKNOWN * size for factor in moving)
+    return weighted(moving if enough else every, seen.columns_of, size).solved()
 
 
 def _rows(problem: Problem, base: BaseParameters) -> EliminatedRows:
@@ -120,8 +133,7 @@ def _first(problem: Problem) -> BaseParameters:
     joints, size = flexible_joints(problem), len(problem.plan.columns)
     rows = SpringRows(problem.plan, joints, [motion.recipe for motion in problem.motions])
     seen = problem.observed(rows=rows)
-    fitted = _fitted(problem, seen)
-    found = weighted(seen.scored_factors(fitted), seen.columns_of, size + 3 * len(joints)).solved()
+    found = _solved(problem, seen, size + 3 * len(joints))
     base, ratios = found[:size].copy(), found[size:].reshape(-1, 3)
     mechanism = mechanism_of(problem.base.model, standard_of(problem, base))
     inertia = np.diagonal(mechanism.mass_matrices(seen.positions), axis1=1, axis2=2).mean(axis=0)[joints]
@@ -143,11 +155,15 @@ def _first(problem: Problem) -> BaseParameters:
     return base
 
 
-def _with_springs(problem: Problem, found: BaseParameters, before: BaseParameters, number: int) -> BaseParameters:
+def _with_springs(
+    problem: Problem, found: BaseParameters, before: BaseParameters, number: int
+) -> BaseParameters:
     """Give what was found, with springs not too far from those before, and no negative damping."""
     base = found.copy()
     for joint in flexible_joints(problem):
-        stiff, damp, rotor = (column_of(problem.plan, symbol, joint) for symbol in (STIFFNESS, DAMPING, ROTOR))
+        stiff, damp, rotor = (
+            column_of(problem.plan, symbol, joint) for symbol in (STIFFNESS, DAMPING, ROTOR)
+        )
         base[stiff] = before[stiff] * _factor(found[stiff] / before[stiff])
         base[damp] = max(found[damp], 0.0) if number >= UNDAMPED else 0.0
         base[rotor] = max(found[rotor], ROTOR_SHARES[0] * before[rotor])

@@ -224,7 +224,7 @@ class EstimateOptions:
                     "estimator": self.estimator,
                     "simulation": self.simulation.source,
                 },
-                remedy=f"ask for estimator {FLEXIBLE} with simulation.from {REPLAY}, or leave flexible_joints out",
+                remedy=f"ask for estimator {FLEXIBLE} with simulation.from {REPLAY}, or leave the option out",
             )
         if list(joints) != sorted(set(joints)) or min(joints, default=1) < 1:
             raise OptionError(

@@ -74,29 +74,31 @@ def check_flexible(joints: tuple[int, ...], model: DynamicModel) -> None:
     OptionError
         If there is no such joint, its motor moves others too, or the model lacks bodies or its rotor.
     """
-    robot, names = model.robot, {parameter.name for parameter in model.parameters}
-    coupled = {joint for coupling in robot.couplings for joint in coupling.joints}
-    faults = {
-        joint: "the robot has no such joint"
-        if joint > len(robot.joints)
-        else "its motor moves other joints too"
-        if joint in coupled
-        else "the model has no rotor inertia of its motor"
-        if f"IA{joint}" not in names
-        else "the model has no bodies"
-        if "M1" not in names
-        else ""
-        for joint in joints
-    }
+    faults = {joint: _rigid_because(joint, model) for joint in joints}
     found = {joint: fault for joint, fault in faults.items() if fault}
+    joints_of_robot = len(model.robot.joints)
     if found:
         joint, fault = next(iter(found.items()))
         raise OptionError(
             f"joint {joint} cannot be flexible: {fault}",
-            evidence={"pointer": "/options/flexible_joints", "joints": list(found), "of": len(robot.joints)},
-            remedy=f"name joints from 1 to {len(robot.joints)} with a motor and a rotor_inertia of their own, and "
-            "keep the terms rigid_body and rotor_inertia",
+            evidence={"pointer": "/options/flexible_joints", "joints": list(found), "of": joints_of_robot},
+            remedy=f"name joints from 1 to {joints_of_robot} with a motor and a rotor_inertia of their own, "
+            "and keep the terms rigid_body and rotor_inertia",
         )
+
+
+def _rigid_because(joint: int, model: DynamicModel) -> str:
+    """Say why a joint cannot be flexible; nothing where it can."""
+    robot, names = model.robot, {parameter.name for parameter in model.parameters}
+    if joint > len(robot.joints):
+        return "the robot has no such joint"
+    if any(joint in coupling.joints for coupling in robot.couplings):
+        return "its motor moves other joints too"
+    if sum(link.joint == joint for link in robot.links) > 1:
+        return "it moves more than one link"
+    if f"IA{joint}" not in names:
+        return "the model has no inertia of its rotor"
+    return "" if "M1" in names else "the model has no bodies"
 
 
 def _check_channels(estimator: Estimator, log: KnownLog) -> None:

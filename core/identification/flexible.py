@@ -89,13 +89,15 @@ def with_springs(problem: Problem, joints: tuple[int, ...], options: FilterOptio
 
 
 def _followed(problem: Problem, options: FilterOptions, band: float) -> FlexibleStart:
-    """Begin with a band, and let it follow the modes that are found."""
+    """Begin with a band, and let it follow the modes that are found, but not below the motion."""
+    least = max(motion.recipe.motion_band_hz for motion in problem.motions)
+    begun = begin(replace(problem, motions=_conditioned(problem, options, band)))
     for _ in range(ROUNDS):
-        begun = begin(replace(problem, motions=_conditioned(problem, options, band)))
-        wanted = BAND_OVER_MODE * float(np.max(_modes(begun)[1]))
+        wanted = max(BAND_OVER_MODE * float(np.max(_modes(begun)[1])), least)
         if not abs(wanted - band) > SETTLED * band:
             break
         band = wanted
+        begun = begin(replace(problem, motions=_conditioned(problem, options, band)))
     return begun
 
 
@@ -115,7 +117,7 @@ def _conditioned(problem: Problem, options: FilterOptions, band_hz: float) -> tu
 
 
 def _modes(begun: FlexibleStart) -> tuple[Vector, Vector]:
-    """Give every spring's antiresonance and natural frequency, Hz; not finite where an inertia is negative."""
+    """Give every spring's antiresonance and natural frequency, Hz; infinite where an inertia is negative."""
     problem, own = begun.problem, begun.transmission(begun.base)
     mechanism = links_of(mechanism_of(problem.base.model, standard_of(problem, begun.base)))
     mass = mechanism.mass_matrices(_positions(problem))
@@ -169,8 +171,8 @@ def unseen(joints: list[int], evidence: Mapping[str, object], why: str) -> Excit
     return ExcitationError(
         f"the logs do not show that {named} flexible: {why}",
         evidence=dict(evidence),
-        remedy="leave rigid joints out of flexible_joints, or let all joints move with frequencies up to their "
-        f"modes, sampled at more than {1.0 / HIGHEST_SHARE:.2g} times these",
+        remedy="leave rigid joints out of flexible_joints, or let all joints move with frequencies up to "
+        f"their modes, sampled at more than {1.0 / HIGHEST_SHARE:.2g} times these",
     )
 
 
@@ -205,7 +207,8 @@ def springs_of(
     for joint, own in evidence.items():
         if not own[GAIN] >= CLEAR:
             reasons[joint].append(
-                f"it explains the torque no better than a rigid joint ({own[GAIN]:.2g} deviations, not {CLEAR:g})"
+                f"it explains the torque no better than a rigid one ({own[GAIN]:.2g} deviations, not"
+                f" {CLEAR:g})"
             )
     _refuse_hidden(evidence, reasons)
     return springs
@@ -249,9 +252,7 @@ def _rigid(problem: Problem, options: EstimateOptions) -> tuple[Equations, BaseP
 class _Springs:
     """Compute quantities of springs with deviations."""
 
-    def __init__(
-        self, problem: Problem, found: Estimate, covariance: SquareMatrix
-    ) -> None:
+    def __init__(self, problem: Problem, found: Estimate, covariance: SquareMatrix) -> None:
         self.problem, self.base, self.covariance = problem, found.base, covariance
         self.positions = _positions(problem)
         self.inertias = self._inertias(problem.base, found.standard)

@@ -6,7 +6,7 @@ parameter groups. This gives SYMORO's names and groupings without symbolic algeb
 1990; Gautier 1991 (numerical, by QR); Khalil & Dombre (2002), ch. 9.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -153,14 +153,17 @@ def _random_states(model: DynamicModel, parameters: int) -> MotionState:
     """Draw states; motors of flexible joints move otherwise than their links."""
     rng, joints = np.random.default_rng(_SEED), len(model.robot.joints)
     shape = (max(60, 4 * parameters // joints), joints)
-    drawn = [rng.uniform(-np.pi, np.pi, shape) for _ in range(3)]
-    flexible = [joint - 1 for term in model.terms if isinstance(term, FlexibleJoints) for joint in term.flexible]
+    motors = MotionState(*(rng.uniform(-np.pi, np.pi, shape) for _ in range(3)))
+    terms = [term for term in model.terms if isinstance(term, FlexibleJoints)]
+    flexible = [joint - 1 for term in terms for joint in term.flexible]
     if not flexible:
-        return MotionState(*drawn)
-    links = [series.copy() for series in drawn]
-    for series in links:
+        return motors
+    position, velocity, acceleration = (
+        series.copy() for series in (motors.position, motors.velocity, motors.acceleration)
+    )
+    for series in (position, velocity, acceleration):
         series[:, flexible] = rng.uniform(-np.pi, np.pi, (shape[0], len(flexible)))
-    return MotionState(*drawn, None, None, None, *links)
+    return replace(motors, link_position=position, link_velocity=velocity, link_acceleration=acceleration)
 
 
 def _first_independent(matrix: Matrix, units: list[str]) -> tuple[list[int], Rows, float]:

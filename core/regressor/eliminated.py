@@ -1,9 +1,8 @@
 """Write the rows of an arm with flexible joints: the links' motion is what torque and springs say it is.
 
-A motor's torque, less what the motor itself takes, is what its spring carries: k x + d dx = tau - motor. So the
-link lies at q - x. With that, the rows of motors and links together are linear in their parameters, and each
-spring's own derivative is the mass matrix times the change of its travel's acceleration.
-Source: De Luca & Book, Springer Handbook of Robotics (2016), ch. 11.
+A motor's torque, less what the motor itself takes, is what its spring carries: k x + d dx = tau - motor. So
+the link lies at q - x. With that, the rows of motors and links together are linear in their parameters, and
+each spring's own derivative is the mass matrix times the change of its travel's acceleration. Source: De Luca & Book, Springer Handbook of Robotics (2016), ch. 11.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -58,7 +57,7 @@ class Transmission:
         velocity = state.velocity[:, joints]
         pushed = tile.torque[:, joints] - self.coulomb * np.sign(velocity)
         taken = self.rotor * state.acceleration[:, joints] + self.viscous * velocity + self.offset
-        return smoothed(pushed, recipe, step_of(state)) - taken
+        return np.asarray(smoothed(pushed, recipe, step_of(state)) - taken)
 
 
 def smoothed(series: JointSeries, recipe: Recipe, step: float) -> JointSeries:
@@ -135,7 +134,9 @@ class EliminatedRows:
         for joint, (rows, usable) in enumerate(plain):
             whole = np.zeros((len(rows), len(self.base) + 1))
             whole[:, self.plan.columns_of[joint]] = rows[:, :-1]
-            columns, series = zip(*((place, masses[:, joint, own[at]] * way) for place, at, way in moved), strict=True)
+            columns, series = zip(
+                *((place, masses[:, joint, own[at]] * way) for place, at, way in moved), strict=True
+            )
             added = tile.filtered(np.ascontiguousarray(series))
             whole[:, columns] += added.T
             whole[:, -1] = rows[:, -1] + added.T @ self.base[list(columns)]

@@ -93,7 +93,7 @@ class Mechanism:
     channel: Share
     """Terms that are logged as torque and move nothing."""
     springs: Springs | None = None
-    """Between motors and links; None where every joint is rigid. Whoever does not ask for them simulates rigid
+    """Between motors and links; None where every joint is rigid. Who does not ask for them simulates rigid
     joints."""
     stiffness: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
     """Of springs between coordinates, N m/rad, coordinates x coordinates; empty where there is none."""
@@ -136,16 +136,16 @@ class Mechanism:
 
     def torque(self, state: MotionState) -> JointSeries:
         """Predict the torque (N m or N) of a motion, as `DynamicModel.torque` does but compiled."""
-        links = state.links
-        tables = (columns(series) for series in (links.position, links.velocity, links.acceleration))
+        moved = state.links
+        tables = (columns(series) for series in (moved.position, moved.velocity, moved.acceleration))
         parts = self.model.split(self.parameters)
         links = sum(
             (values.reshape(-1, 10) for term, values in parts if isinstance(term, RigidBody)),
             np.zeros((len(self.robot.links), 10)),
         )
-        moved = forward.torques(bodies_of(self.robot, links), *tables)
+        carried = forward.torques(bodies_of(self.robot, links), *tables)
         rest = [part for part in parts if not isinstance(part[0], RigidBody)]
-        return np.asarray(moved.T + share_of(self.robot, rest).torque(state))
+        return np.asarray(carried.T + share_of(self.robot, rest).torque(state))
 
 
 def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:

@@ -88,7 +88,9 @@ def model_of_result(document: Document, robot: RobotModel) -> DynamicModel:
     model = with_widths(standard_model(robot, plain), tuple(document["coulomb_smoothing_widths"]))
     if FLEXIBLE not in names:
         return model
-    return model.with_term(FlexibleJoints(tuple(row["joint"] for row in document["estimation"]["flexible_joints"])))
+    return model.with_term(
+        FlexibleJoints(tuple(row["joint"] for row in document["estimation"]["flexible_joints"]))
+    )
 
 
 def _uncorrected_model(document: Document) -> IdentifiedRobot:

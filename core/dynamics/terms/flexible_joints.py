@@ -1,8 +1,8 @@
 """Give joints a spring and a damper between motor and link.
 
-The spring gives the sum of both sides' equations no torque of its own: motor and load together are what the
-drive moves. It shows in the motion of the links, M(q_l) ddq_l + c + g = k (q_m - q_l) + d (dq_m - dq_l), where
-q_m is the measured motor. Source: Spong, J. Dyn. Sys. Meas. Control 109, 1987.
+The sum of both sides' equations holds no torque of the spring: motor and load together are what the drive
+moves. It shows in the motion of the links, M(q_l) ddq_l + c + g = k (q_m - q_l) + d (dq_m - dq_l), with the
+measured motor q_m. Source: Spong, J. Dyn. Sys. Meas. Control 109, 1987.
 """
 
 from dataclasses import dataclass

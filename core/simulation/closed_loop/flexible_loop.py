@@ -18,8 +18,8 @@ from ..mechanism import Mechanism, Springs
 from .loop import Loop, LoopState, Played
 
 START_SECONDS: Final = 1.0
-"""Length from the first sample on over which the links' first state is fitted, s: three periods of the slowest
-mode that is a joint's."""
+"""Length from the first sample on over which the links' first state is fitted, s: three periods of the
+slowest mode that is a joint's."""
 START_ROUNDS: Final = 2
 """Steps of that fit, by the derivatives of its first: what bends is gravity along the spring's travel."""
 OFFSETS: Final = (1e-5, 1e-3)
@@ -125,7 +125,9 @@ class FlexibleLoop:
 
         still = np.zeros(len(joints))
         wide = MotionState(
-            of(state.position, apart), of(state.velocity, faster), of(state.acceleration, still),
+            of(state.position, apart),
+            of(state.velocity, faster),
+            of(state.acceleration, still),
             None if state.time is None else state.time[:1],
         )
         return self._inner.start(wide)
@@ -145,11 +147,12 @@ class FlexibleLoop:
     def _seen(self, state: MotionState) -> MotionState:
         """Give the motion of motors, with that of the links."""
         motors, joints = self._motors, self.mechanism.joints
-        motion = state.position, state.velocity, state.acceleration
         share = state.friction_share
         couplings = np.arange(joints + len(self._springs.joints), 0 if share is None else share.shape[1])
         return MotionState(
-            *(series[:, motors] for series in motion),
+            state.position[:, motors],
+            state.velocity[:, motors],
+            state.acceleration[:, motors],
             state.time,
             friction_share=None if share is None else share[:, np.append(motors, couplings)],
             link_position=state.position[:, :joints],

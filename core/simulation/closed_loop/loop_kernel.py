@@ -240,11 +240,26 @@ def tables_of(joints, links) -> tuple[np.ndarray, ...]:
 
 @njit(
     f"int64({ROBOT}, UniTuple({TABLE}, 3), {TABLE}, float64[::1], float64[::1], {TABLE},"
-    f" UniTuple({TABLE}, 3), {TABLE}, float64[::1], UniTuple({TABLE}, 4), {TABLE}, float64, int64, boolean, boolean)",
+    f" UniTuple({TABLE}, 3), {TABLE}, float64[::1], UniTuple({TABLE}, 4), {TABLE}, float64, int64, boolean,"
+    " boolean)",
     **OPTIONS,
 )
 def play(  # pragma: no cover  (compiled)
-    robot, drives, stiffness, offset, levels, law, inputs, state, held, motion, share, step, substeps, sampled, fresh
+    robot,
+    drives,
+    stiffness,
+    offset,
+    levels,
+    law,
+    inputs,
+    state,
+    held,
+    motion,
+    share,
+    step,
+    substeps,
+    sampled,
+    fresh,
 ) -> int:
     """Step through all samples of the inputs; gives the sample at which it failed, or -1.
 

@@ -101,7 +101,9 @@ class SimulatedMotion:
             loop = Loop(mechanism, self.source.law(step), step, steps)
             return _Lane(segment, self.source, loop, loop.start(tile.state), none).onwards(tile)
         flexible = FlexibleLoop(mechanism, self.source.law(step), step, steps)
-        begun = flexible.start(tile.state, self.source.inputs(Piece(segment, step, 0, tile.state, tile.torque)))
+        begun = flexible.start(
+            tile.state, self.source.inputs(Piece(segment, step, 0, tile.state, tile.torque))
+        )
         return _Lane(segment, self.source, flexible, begun, none).onwards(tile)
 
 

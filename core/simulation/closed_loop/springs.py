@@ -12,6 +12,7 @@ LONGEST_ANGLE: Final = 0.1
 """Step of the simulation times the highest angular frequency of the springs: the scheme's frequencies are
 then wrong by a 24th of its square, 4e-4, and stiffnesses by twice that at that frequency, less below."""
 
+
 def fastest(mechanism: Mechanism, positions: JointSeries) -> float:
     """Give the highest angular frequency of motors and links against each other over positions, rad/s."""
     springs = mechanism.springs
@@ -20,7 +21,9 @@ def fastest(mechanism: Mechanism, positions: JointSeries) -> float:
     rotors = np.diag(mechanism.inertia)[springs.joints]
     links = links_of(mechanism).mass_matrices(positions)[:, springs.joints][:, :, springs.joints]
     root = np.sqrt(springs.stiffness)
-    compliant = np.linalg.solve(links, np.broadcast_to(np.eye(len(root)), links.shape)) + np.diag(1.0 / rotors)
+    compliant = np.linalg.solve(links, np.broadcast_to(np.eye(len(root)), links.shape)) + np.diag(
+        1.0 / rotors
+    )
     return float(np.sqrt(np.linalg.eigvalsh(compliant * np.outer(root, root)).max()))
 
 

@@ -50,7 +50,9 @@ class FlexibleArm:
 
     @property
     def damping(self) -> np.ndarray:
-        return 2.0 * self.damping_ratio * self.stiffness / (2.0 * np.pi * np.array(self.mode_hz))
+        seen, rotors = np.array(self.seen), np.array(self.rotors)
+        moved = seen * rotors / (seen + rotors)
+        return 2.0 * self.damping_ratio * 2.0 * np.pi * np.array(self.mode_hz) * moved
 
     def with_mode(self, *hertz: float) -> "FlexibleArm":
         return replace(self, mode_hz=hertz if len(hertz) > 1 else hertz * self.joints)
@@ -66,32 +68,49 @@ class FlexibleArm:
     def engine(self) -> mujoco.MjModel:
         inner = ""
         for j in reversed(range(self.joints)):
-            inertial = 'mass="%r" pos="%r %r %r" diaginertia="%r %r %r"' % (
-                self.masses[j], *self.centres[j], *self.inertias[j],
-            )
-            motor = (
-                f'<joint name="m{j}" type="hinge" axis="0 0 1" armature="{self.rotors[j]!r}"'
-                f' damping="{self.viscous[j]!r}" frictionloss="{self.coulomb[j]!r}" solreffriction="0.0005 1" solimpfriction="0.999 0.9999 0.001"/>'
-            )
-            place = f'pos="{self.lengths[j]!r} 0 0" euler="{self.alphas[j]!r} 0 0"'
-            if np.isinf(self.mode_hz[j]):
-                inner = f"<body {place}>{motor}<inertial {inertial}/>{inner}</body>"
-                continue
-            spring = (
-                f'<joint name="s{j}" type="hinge" axis="0 0 1" stiffness="{float(self.stiffness[j])!r}"'
-                f' damping="{float(self.damping[j])!r}"/>'
-            )
-            link = f"<body>{spring}<inertial {inertial}/>{inner}</body>"
-            light = '<inertial mass="1e-6" pos="0 0 0" diaginertia="1e-9 1e-9 1e-9"/>'
-            inner = f"<body {place}>{motor}{light}{link}</body>"
+            inner = self._body(j, inner)
         return mujoco.MjModel.from_xml_string(
-            f'<mujoco><compiler angle="radian" eulerseq="xyz"/><option timestep="{STEP}" gravity="0 0 -9.81"'
-            f' integrator="implicitfast"/><worldbody>{inner}</worldbody></mujoco>'
+            '<mujoco><compiler angle="radian" eulerseq="xyz"/>'
+            f'<option timestep="{STEP}" gravity="0 0 -9.81" integrator="implicitfast"/>'
+            f"<worldbody>{inner}</worldbody></mujoco>"
         )
+
+    def _body(self, j: int, inner: str) -> str:
+        """Write a motor and a link that carries what is within; friction holds as stiffly as steps allow."""
+        place = f'pos="{self.lengths[j]!r} 0 0" euler="{self.alphas[j]!r} 0 0"'
+        motor = (
+            f'<joint name="m{j}" type="hinge" axis="0 0 1" armature="{self.rotors[j]!r}"'
+            f' damping="{self.viscous[j]!r}" frictionloss="{self.coulomb[j]!r}"'
+            ' solreffriction="0.0005 1" solimpfriction="0.999 0.9999 0.001"/>'
+        )
+        mass = _inertial(self.masses[j], self.centres[j], self.inertias[j])
+        if np.isinf(self.mode_hz[j]):
+            return f"<body {place}>{motor}{mass}{inner}</body>"
+        spring = (
+            f'<joint name="s{j}" type="hinge" axis="0 0 1" stiffness="{float(self.stiffness[j])!r}"'
+            f' damping="{float(self.damping[j])!r}"/>'
+        )
+        nothing = _inertial(1e-6, (0.0, 0.0, 0.0), (1e-9, 1e-9, 1e-9))
+        return f"<body {place}>{motor}{nothing}<body>{spring}{mass}{inner}</body></body>"
+
+
+def _inertial(mass: float, centre: tuple[float, ...], inertia: tuple[float, ...]) -> str:
+    x, y, z = centre
+    a, b, c = inertia
+    return f'<inertial mass="{mass!r}" pos="{x!r} {y!r} {z!r}" diaginertia="{a!r} {b!r} {c!r}"/>'
 
 
 ONE = FlexibleArm(
-    (np.pi / 2,), (0.0,), (6.0,), ((0.25, 0.02, 0.0),), ((0.02, 0.25, 0.24),), (0.5,), (0.62,), (3.0,), (2.0,), (12.0,)
+    (np.pi / 2,),
+    (0.0,),
+    (6.0,),
+    ((0.25, 0.02, 0.0),),
+    ((0.02, 0.25, 0.24),),
+    (0.5,),
+    (0.62,),
+    (3.0,),
+    (2.0,),
+    (12.0,),
 )
 THREE = FlexibleArm(
     (0.0, np.pi / 2, 0.0),
@@ -112,8 +131,6 @@ class Recorded:
     time: np.ndarray
     position: np.ndarray
     torque: np.ndarray
-    link: np.ndarray
-    """Where the links were: no log shows it."""
 
     def log(self, seed: int, encoder: float = ENCODER, torque_share: float = 0.002) -> JointLog:
         rng = np.random.default_rng(seed)
@@ -123,39 +140,33 @@ class Recorded:
         return log_from_arrays("flexible", self.time, position, torque)
 
 
-def recorded(
-    arm: FlexibleArm, highest_hz: float, seconds: float = 20.0, seed: int = 1, amplitude: float = 1.0, hold: int = 1
-) -> Recorded:
-    """Record motors and their torques while they follow sines up to a frequency; the controller acts every `hold` steps."""
+def recorded(arm: FlexibleArm, highest_hz: float, seconds: float, seed: int = 1) -> Recorded:
+    """Record motors and their torques while they follow sines up to a frequency."""
     model = arm.engine()
     data = mujoco.MjData(model)
-    rng = np.random.default_rng(seed)
-    n = arm.joints
-    motors = [model.joint(f"m{j}").qposadr[0] for j in range(n)]
-    springs = [-1 if np.isinf(arm.mode_hz[j]) else model.joint(f"s{j}").qposadr[0] for j in range(n)]
-    time = np.arange(round(seconds / STEP)) * STEP
-    slow, fast = np.linspace(0.1, 1.0, 8), np.geomspace(1.5, highest_hz, 24)
-    hertz = np.concatenate([slow, fast])
-    sizes = amplitude * np.concatenate([0.25 / np.sqrt(slow), 4.0 / (2 * np.pi * fast) ** 1.75])
-    reference = np.stack(
-        [np.sin(2 * np.pi * np.outer(time, hertz) + rng.uniform(0, 2 * np.pi, len(hertz))) @ sizes for _ in range(n)], 1
-    ) * (1.0 - np.exp(-((time[:, None] / 0.3) ** 2)))
-    rate = np.gradient(reference, STEP, axis=0)
+    count, every = arm.joints, round(1.0 / (RATE * STEP))
+    motors = [model.joint(f"m{j}").qposadr[0] for j in range(count)]
+    reference, rate = _reference(count, highest_hz, seconds, seed)
     inertia = np.array(arm.seen) + np.array(arm.rotors)
     kp, kd = 400.0 * inertia, 28.0 * inertia
-    every = round(1.0 / (RATE * STEP))
-    keep = len(time) // every
-    position, torque, link = np.zeros((3, keep, n))
+    position, torque = np.zeros((2, len(reference) // every, count))
     mujoco.mj_forward(model, data)
-    command = np.zeros(n)
-    for k in range(len(time)):
-        q, dq = data.qpos[motors], data.qvel[motors]
-        if k % hold == 0:
-            command = kp * (reference[k] - q) + kd * (rate[k] - dq)
+    for k in range(len(reference)):
+        command = kp * (reference[k] - data.qpos[motors]) + kd * (rate[k] - data.qvel[motors])
         if k % every == 0:
-            row = k // every
-            position[row], torque[row] = q, command
-            link[row] = q + [0.0 if s < 0 else data.qpos[s] for s in springs]
+            position[k // every], torque[k // every] = data.qpos[motors], command
         data.qfrc_applied[motors] = command
         mujoco.mj_step(model, data)
-    return Recorded(time[::every][:keep], position, torque, link)
+    return Recorded(np.arange(len(position)) / RATE, position, torque)
+
+
+def _reference(joints: int, highest_hz: float, seconds: float, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Draw sines up to a frequency, slow ones large, and give their rate too."""
+    rng, time = np.random.default_rng(seed), np.arange(round(seconds / STEP)) * STEP
+    slow, fast = np.linspace(0.1, 1.0, 8), np.geomspace(1.5, highest_hz, 24)
+    hertz = np.concatenate([slow, fast])
+    sizes = np.concatenate([0.25 / np.sqrt(slow), 4.0 / (2.0 * np.pi * fast) ** 1.75])
+    angles = 2.0 * np.pi * np.outer(time, hertz)
+    drawn = [np.sin(angles + rng.uniform(0.0, 2.0 * np.pi, len(hertz))) @ sizes for _ in range(joints)]
+    reference = np.stack(drawn, axis=1) * (1.0 - np.exp(-((time[:, None] / 0.3) ** 2)))
+    return reference, np.gradient(reference, STEP, axis=0)
