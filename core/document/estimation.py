@@ -105,8 +105,7 @@ def _statements(found: Identification) -> Iterator[str]:
         yield _foreseen(found.innovations)
     if found.endogeneity is not None:
         yield _difference(found.endogeneity)
-    for joint in found.flexible_joints:
-        yield _springs(joint)
+    yield from map(_springs, found.flexible_joints)
     if found.estimator in LEAST_SQUARES:
         yield from _attenuated(found.attenuation.missed)
 

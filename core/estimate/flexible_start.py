@@ -10,8 +10,9 @@ from typing import Final
 import numpy as np
 
 from ..arrays import BaseParameters, JointSeries, Parameters, Vector
-from ..dynamics.terms.flexible_joints import DAMPING, STIFFNESS, FlexibleJoints
+from ..dynamics.terms.flexible_joints import DAMPING, STIFFNESS
 from ..errors import ExcitationError
+from ..reduction.base import flexible_joints
 from ..regressor.eliminated import ROTOR, EliminatedRows, SpringRows, Transmission, column_of
 from ..regressor.observe import Observation
 from ..simulation.closed_loop.springs import links_of
@@ -55,7 +56,7 @@ class FlexibleStart:
 
 def transmission_of(problem: Problem, base: BaseParameters) -> Transmission:
     """Give what stands between torques and links."""
-    joints = flexible_joints(problem)
+    joints = np.array(flexible_joints(problem.base.model))
 
     def of(symbol: str) -> Vector:
         names = [problem.base.model.parameters[column].name for column in problem.plan.columns]
@@ -67,14 +68,6 @@ def transmission_of(problem: Problem, base: BaseParameters) -> Transmission:
         )
 
     return Transmission(joints, of(STIFFNESS), of(DAMPING), of(ROTOR), of("FV"), of("FC"), of("OFF"))
-
-
-def flexible_joints(problem: Problem) -> np.ndarray:
-    """Give the flexible joints of a problem, from 0."""
-    terms = problem.base.model.terms
-    return np.array(
-        [joint - 1 for term in terms if isinstance(term, FlexibleJoints) for joint in term.flexible]
-    )
 
 
 def begin(problem: Problem) -> FlexibleStart:
@@ -130,7 +123,7 @@ def standard_of(problem: Problem, base: BaseParameters) -> Parameters:
 
 def _first(problem: Problem) -> BaseParameters:
     """Fit every spring alone: rigid columns, with the first order of the compliance beside them."""
-    joints, size = flexible_joints(problem), len(problem.plan.columns)
+    joints, size = np.array(flexible_joints(problem.base.model)), len(problem.plan.columns)
     rows = SpringRows(problem.plan, joints, [motion.recipe for motion in problem.motions])
     seen = problem.observed(rows=rows)
     found = _solved(problem, seen, size + 3 * len(joints))
@@ -160,7 +153,7 @@ def _with_springs(
 ) -> BaseParameters:
     """Give what was found, with springs not too far from those before, and no negative damping."""
     base = found.copy()
-    for joint in flexible_joints(problem):
+    for joint in np.array(flexible_joints(problem.base.model)):
         stiff, damp, rotor = (
             column_of(problem.plan, symbol, joint) for symbol in (STIFFNESS, DAMPING, ROTOR)
         )

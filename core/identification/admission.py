@@ -92,9 +92,9 @@ def _rigid_because(joint: int, model: DynamicModel) -> str:
     robot, names = model.robot, {parameter.name for parameter in model.parameters}
     if joint > len(robot.joints):
         return "the robot has no such joint"
-    if any(joint in coupling.joints for coupling in robot.couplings):
+    if joint in {moved for coupling in robot.couplings for moved in coupling.joints}:
         return "its motor moves other joints too"
-    if sum(link.joint == joint for link in robot.links) > 1:
+    if [link.joint for link in robot.links].count(joint) > 1:
         return "it moves more than one link"
     if f"IA{joint}" not in names:
         return "the model has no inertia of its rotor"

@@ -29,7 +29,8 @@ from ..validation.mass_matrix import check_mass_matrix, pseudo_inertia_eigenvalu
 from ..validation.scores import reversals_percent, scores, total_percent
 from .choice import SPARED, USUAL, Choice, choose
 from .convergence import Convergence, converge
-from .flexible import springs_of, with_springs
+from .flexible import springs_of
+from .flexible_band import with_springs
 from .options import IdentifyOptions
 from .result import Identification
 
@@ -97,9 +98,7 @@ def _fit(problem: Problem, options: IdentifyOptions, tell: Progress, observation
     tell("estimate", 0.6)
     asked = options.estimate
     scales = torque_scales(observation, observation.parts(problem.held_out)[0])
-    flexible = with_springs(problem, asked.flexible_joints, options.filter) if asked.flexible_joints else None
-    if flexible is not None:
-        problem, observation = flexible.problem, flexible.differentiated(flexible.base)
+    problem, observation, judged_by = _begun(problem, options, observation)
     simulation = simulation_setup(problem.base, problem.motions, asked.simulation)
     data = ObservedProblem(
         problem, observation, asked.robust, asked.weigh_reversals, simulation=simulation, kalman=asked.kalman
@@ -119,9 +118,21 @@ def _fit(problem: Problem, options: IdentifyOptions, tell: Progress, observation
     if isinstance(method, KalmanFilter) and asked.kalman.drift > 0.0 and step.innovations is not None:
         followed = data.tracked(found.standard, unscented=method.unscented)
         track = followed.widened(step.innovations.dispersion)
-    if flexible is not None:
-        observation = flexible.observed(found.base)
-    return Fit(problem, observation, step, found, convergence, simulation, apart, track, options)
+    return Fit(problem, judged_by(found.base), step, found, convergence, simulation, apart, track, options)
+
+
+def _begun(
+    problem: Problem, options: IdentifyOptions, observation: Observation
+) -> tuple[Problem, Observation, Callable[[BaseParameters], Observation]]:
+    """Give the problem, its first equations, and those that its estimate is judged by.
+
+    With flexible joints they depend on where the links are.
+    """
+    joints = options.estimate.flexible_joints
+    if not joints:
+        return problem, observation, lambda _: observation
+    begun = with_springs(problem, joints, options.filter)
+    return begun.problem, begun.differentiated(begun.base), begun.observed
 
 
 def judge(logs: tuple[JointLog, ...], found: Fit, tell: Progress, mapper: Mapper = SERIAL) -> Identification:

@@ -149,13 +149,18 @@ def _in_motion(model: DynamicModel) -> list[int]:
     return [column for column, mark in enumerate(marks) if mark]
 
 
+def flexible_joints(model: DynamicModel) -> list[int]:
+    """List the joints (from 0) with a spring between motor and link."""
+    terms = [term for term in model.terms if isinstance(term, FlexibleJoints)]
+    return [joint - 1 for term in terms for joint in term.flexible]
+
+
 def _random_states(model: DynamicModel, parameters: int) -> MotionState:
     """Draw states; motors of flexible joints move otherwise than their links."""
     rng, joints = np.random.default_rng(_SEED), len(model.robot.joints)
     shape = (max(60, 4 * parameters // joints), joints)
     motors = MotionState(*(rng.uniform(-np.pi, np.pi, shape) for _ in range(3)))
-    terms = [term for term in model.terms if isinstance(term, FlexibleJoints)]
-    flexible = [joint - 1 for term in terms for joint in term.flexible]
+    flexible = flexible_joints(model)
     if not flexible:
         return motors
     position, velocity, acceleration = (

@@ -1,8 +1,9 @@
 """Write the rows of an arm with flexible joints: the links' motion is what torque and springs say it is.
 
 A motor's torque, less what the motor itself takes, is what its spring carries: k x + d dx = tau - motor. So
-the link lies at q - x. With that, the rows of motors and links together are linear in their parameters, and
-each spring's own derivative is the mass matrix times the change of its travel's acceleration. Source: De Luca & Book, Springer Handbook of Robotics (2016), ch. 11.
+the link lies at q - x. With that, the rows of motors and links together are linear in their
+parameters, and each spring's own derivative is the mass matrix times the change of its travel's acceleration.
+Source: De Luca & Book, Springer Handbook of Robotics (2016), ch. 11.
 """
 
 from collections.abc import Callable, Iterator, Sequence

@@ -173,6 +173,7 @@ def mechanism_of(model: DynamicModel, parameters: Parameters) -> Mechanism:
         damping = damping + viscous * np.outer(weights, weights)
     weights = np.vstack([np.eye(joints), *(weights[None] for weights, _ in coupled)])
     levels = _checked_levels(np.concatenate([drives[Coulomb], [values[2] for _, values in coupled]]))
+    _, others = _partition(others, lambda term: term.shapes_motion)
     channel, rest = _partition(others, lambda term: term.channel)
     with_memory, of_state = _partition(rest, lambda term: term.has_memory)
     # Any term may jump where its joint stands: only a model without such terms can leave joints out.
@@ -223,7 +224,7 @@ def _sort_terms(
             coupled += _couplings(robot.couplings, values, len(robot.joints))
         elif isinstance(term, MissingCoupling):
             coupled += _couplings((term.coupling,), values, len(robot.joints))
-        elif not is_body(term) and not isinstance(term, FlexibleJoints):
+        elif not is_body(term):
             others.append((term, values))
     return drives, coupled, others
 

@@ -46,12 +46,7 @@ def reference_from_document(document: Document, robot: RobotModel, name: str) ->
             remedy="name a job that identifies or diagnoses the robot",
         )
     document = plain_document(document)
-    if FLEXIBLE in document.get("terms", ()):
-        raise OptionError(
-            f"the result of {name} has flexible joints, with which no later log is compared",
-            evidence={"reference": name, "terms": document["terms"]},
-            remedy="identify the robot from the earlier log without flexible_joints, and name that job",
-        )
+    _check_rigid(document, name)
     model = model_of_result(document, robot)
     base = base_model(model)
     rows = {row["name"]: row for row in document["base_parameters"]}
@@ -109,4 +104,13 @@ def _check_robot(document: Document, robot: RobotModel, name: str) -> None:
             f"the reference {name} is another robot than the one of this log",
             evidence={"reference": name, "differ": list(differing)},
             remedy="name a job of the same robot, with the same table, gravity and declared friction",
+        )
+
+
+def _check_rigid(document: Document, name: str) -> None:
+    if FLEXIBLE in document.get("terms", ()):
+        raise OptionError(
+            f"the result of {name} has flexible joints, with which no later log is compared",
+            evidence={"reference": name, "terms": document["terms"]},
+            remedy="identify the robot from the earlier log without flexible_joints, and name that job",
         )

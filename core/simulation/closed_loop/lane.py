@@ -1,4 +1,4 @@
-"""Compute mass matrix and torque of moving masses for one state, compiled: blocks of one lane.
+"""Compute mass matrix, torque of moving masses and springs for one state, compiled: blocks of one lane.
 
 Placing the bodies is apart, since the torque at one position is asked for at more than one velocity.
 """
@@ -67,3 +67,11 @@ def lane_mass(robot, scratch, kept, mass, joints) -> None:
         if antecedent[j] > 0:
             gather(body, np.uintp(antecedent[j]), np.uintp(j + 1), np.uintp(9), ONE)
     mass_of_block(antecedent, joint, masses, axis, body, moved, mass, joints, FIRST, ONE)
+
+
+@njit(inline="always")
+def lane_springs(out, stiffness, position) -> None:
+    """Take the torque of springs between coordinates from what drives them; none where the table is empty."""
+    for i in range(len(stiffness)):
+        for j in range(len(stiffness)):
+            out[i, 0] -= stiffness[i, j] * position[j, 0]

@@ -30,7 +30,7 @@ from ..forward import add_drives
 from ..hold import couple, settle, stop
 from ..integrate import FASTEST
 from ..kernel import OPTIONS, ROBOT, TABLE, scratch_of
-from .lane import FIRST, ONE, lane_mass, lane_place, lane_torque
+from .lane import FIRST, ONE, lane_mass, lane_place, lane_springs, lane_torque
 
 POSITION, SPEED, ACCELERATION, EARLIER, BEFORE, FILTERED, INTEGRAL, HELD, FORWARD, PLACE, RATE = range(11)
 """Rows of the state: position at the next sample less the way there, speed half a step after the last one,
@@ -106,14 +106,6 @@ def _rub(rate, factor, scale, weights, levels, held, before, after, step) -> Non
     stop(after, 0, weights, every, held, levels)
     for j in range(joints):
         rate[j, 0] = (after[j, 0] - before[j, 0]) / step
-
-
-@njit(inline="always")
-def _pull(out, stiffness, state) -> None:
-    """Take the torque of springs between coordinates from what drives them; none where the table is empty."""
-    for i in range(len(stiffness)):
-        for j in range(len(stiffness)):
-            out[i, 0] -= stiffness[i, j] * state[POSITION, j]
 
 
 @njit(inline="always")
@@ -292,7 +284,7 @@ def play(  # pragma: no cover  (compiled)
             _drift(state, place, before, ahead, out, implicit, part, 0.0 if begin else part)
             back = (substeps - number - 1) / substeps
             asked = _ask(out, implicit, law, state, ahead, inputs, k, step, back, sampled, begin)
-            _pull(out, stiffness, state)
+            lane_springs(out, stiffness, place)
             lane_place(robot, scratch, kept, place)
             lane_torque(robot, scratch, kept, ahead, still, bodies)
             lane_mass(robot, scratch, kept, mass, joints)

@@ -20,7 +20,9 @@ from veritorque.core.simulation.inverse import inverse_dynamics
 FOLDER = Path(__file__).parents[3] / "core" / "dynamics" / "terms"
 SHARED_PARTS = {"__init__", "effect"}
 FILES = sorted({path.stem for path in FOLDER.glob("*.py")} - SHARED_PARTS)
-SEARCHED = sorted(set(FILES) - set(STANDARD_TERMS))
+IN_MOTION = {"flexible_joints"}
+"""Terms that show in the motion of the links alone: no torque is theirs."""
+SEARCHED = sorted(set(FILES) - set(STANDARD_TERMS) - IN_MOTION)
 
 
 def file_of(term: Term) -> str:

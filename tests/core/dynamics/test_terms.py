@@ -10,7 +10,16 @@ import numpy as np
 import pytest
 
 from tests.core.diagnosis.scenes import eventful_scene
-from tests.core.dynamics.every_term import FILES, FOLDER, SEARCHED, cures, file_of, searched, traces
+from tests.core.dynamics.every_term import (
+    FILES,
+    FOLDER,
+    IN_MOTION,
+    SEARCHED,
+    cures,
+    file_of,
+    searched,
+    traces,
+)
 from tests.tools import random_robot
 from veritorque.core.dynamics.model import STANDARD_TERMS, DynamicModel, standard_model
 from veritorque.core.dynamics.term import Term
@@ -39,7 +48,7 @@ def state() -> MotionState:
 
 def test_every_file_of_terms_is_a_standard_term_or_the_term_of_a_cause_or_the_patterns_without_one():
     found = {file_of(term) for term in (*cures(), *traces())}
-    assert set(FILES) == set(STANDARD_TERMS) | found
+    assert set(FILES) == set(STANDARD_TERMS) | found | IN_MOTION
     assert all(term().name == name for name, term in STANDARD_TERMS.items())
 
 

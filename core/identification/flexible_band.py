@@ -1,0 +1,114 @@
+"""Make joints of a problem flexible, with a filter that follows their modes.
+
+The first estimate takes the links to be where the torques say they are. Far above a mode noise outweighs the
+motion, and far below it a spring hardly shows: the band follows the modes that are found.
+"""
+
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from ..arrays import Vector
+from ..dynamics.terms.flexible_joints import DAMPING, STIFFNESS, FlexibleJoints
+from ..errors import ExcitationError, OptionError, VeritorqueError
+from ..estimate.flexible_start import FlexibleStart, begin, standard_of
+from ..estimate.problem import Problem
+from ..reduction.base import base_model
+from ..signals.condition import Motion, condition
+from ..signals.recipe import FilterOptions
+from ..simulation.closed_loop.springs import links_of
+from ..simulation.mechanism import mechanism_of
+from ..validation.springs_seen import HIGHEST_SHARE, reasons_unseen
+from .spring_evidence import KNOWN, positions_of, refuse_hidden, seen_by, unseen
+
+BAND_OVER_MODE: Final = 1.6
+"""Parallel cut-off over the highest mode: the mode and what lies around it pass."""
+POSITIONS_OVER_BAND: Final = 3.0
+"""Cut-off of positions over that: it bends what passes by less than 1e-5."""
+SETTLED: Final = 0.15
+"""Relative change of the band below which it follows the modes."""
+BANDS: Final = (1.0, 2.5, 6.0)
+"""Bands that are begun with, as multiples of the motion's: near the mode a spring shows most clearly."""
+ROUNDS: Final = 5
+"""Bands at most: from a tenth of the mode each round finds more of it."""
+
+
+def with_springs(problem: Problem, joints: tuple[int, ...], options: FilterOptions) -> FlexibleStart:
+    """Give the problem in which these joints are flexible, and where it begins.
+
+    Raises
+    ------
+    ExcitationError
+        If the logs do not show that they are.
+    """
+    own = replace(problem, base=base_model(problem.base.model.with_term(FlexibleJoints(joints))))
+    if options.cutoff_hz is not None:
+        return _sized(_checked(begin(own)))
+    band = max(motion.recipe.motion_band_hz for motion in problem.motions)
+    failure: VeritorqueError | None = None
+    for share in BANDS:
+        try:
+            return _sized(_checked(_followed(own, options, share * band)))
+        except (ExcitationError, OptionError) as error:
+            failure = failure or error
+    raise failure or unseen(list(joints), {}, "no band shows it")
+
+
+def _followed(problem: Problem, options: FilterOptions, band: float) -> FlexibleStart:
+    """Begin with a band, and let it follow the modes that are found, but not below the motion."""
+    least = max(motion.recipe.motion_band_hz for motion in problem.motions)
+    begun = begin(replace(problem, motions=_conditioned(problem, options, band)))
+    for _ in range(ROUNDS):
+        wanted = max(BAND_OVER_MODE * float(np.max(_modes(begun)[1])), least)
+        if not abs(wanted - band) > SETTLED * band:
+            break
+        band = wanted
+        begun = begin(replace(problem, motions=_conditioned(problem, options, band)))
+    return begun
+
+
+def _conditioned(problem: Problem, options: FilterOptions, band_hz: float) -> tuple[Motion, ...]:
+    """Condition the logs anew, with a filter that passes so much."""
+    robot = problem.base.model.robot
+
+    def within(motion: Motion) -> FilterOptions:
+        rate = motion.log.rate_hz
+        band = min(band_hz, HIGHEST_SHARE * rate)
+        positions = options.position_cutoff_hz or min(POSITIONS_OVER_BAND * band, 0.4 * rate)
+        return replace(options, cutoff_hz=band, position_cutoff_hz=positions)
+
+    return tuple(
+        condition(motion.log, robot, within(motion), blocks=motion.blocks) for motion in problem.motions
+    )
+
+
+def _modes(begun: FlexibleStart) -> tuple[Vector, Vector]:
+    """Give every spring's antiresonance and natural frequency, Hz; infinite where an inertia is negative."""
+    problem, own = begun.problem, begun.transmission(begun.base)
+    mechanism = links_of(mechanism_of(problem.base.model, standard_of(problem, begun.base)))
+    mass = mechanism.mass_matrices(positions_of(problem))
+    link = np.median(np.diagonal(mass, axis1=1, axis2=2), axis=0)[own.joints]
+    squares = np.where(link > 0.0, own.stiffness / np.where(link > 0.0, link, 1.0), np.inf)
+    return np.sqrt(squares) / (2.0 * np.pi), np.sqrt(squares + own.stiffness / own.rotor) / (2.0 * np.pi)
+
+
+def _checked(begun: FlexibleStart) -> FlexibleStart:
+    """Refuse at once springs that the sampling or the torque hides: they would be simulated to no end."""
+    low, high = _modes(begun)
+    joints = [int(joint) for joint in begun.transmission(begun.base).joints]
+    evidence = {
+        joint + 1: seen_by(begun.problem.motions, joint, float(at), float(mode)) | {KNOWN: 0.0}
+        for joint, at, mode in zip(joints, low, high, strict=True)
+    }
+    refuse_hidden(evidence, {joint: list(reasons_unseen(own)) for joint, own in evidence.items()})
+    return begun
+
+
+def _sized(begun: FlexibleStart) -> FlexibleStart:
+    """Say what counts as one unit of a spring in a prior."""
+    own, sizes = begun.transmission(begun.base), dict(begun.problem.sizes)
+    for joint, stiffness, rotor in zip(own.joints, own.stiffness, own.rotor, strict=True):
+        sizes[f"{STIFFNESS}{joint + 1}"] = float(stiffness)
+        sizes[f"{DAMPING}{joint + 1}"] = float(np.sqrt(stiffness * rotor))
+    return replace(begun, problem=replace(begun.problem, sizes=sizes))
