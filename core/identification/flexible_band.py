@@ -4,6 +4,7 @@ The first estimate takes the links to be where the torques say they are. Far abo
 motion, and far below it a spring hardly shows: the band follows the modes that are found.
 """
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Final
 
@@ -101,8 +102,15 @@ def _checked(begun: FlexibleStart) -> FlexibleStart:
         joint + 1: seen_by(begun.problem.motions, joint, float(at), float(mode)) | {KNOWN: 0.0}
         for joint, at, mode in zip(joints, low, high, strict=True)
     }
-    refuse_hidden(evidence, {joint: list(reasons_unseen(own)) for joint, own in evidence.items()})
+    refuse_hidden(evidence, {joint: _hidden_by(own) for joint, own in evidence.items()})
     return begun
+
+
+def _hidden_by(evidence: Mapping[str, float]) -> list[str]:
+    """Say what hides a spring; a link without inertia has no mode."""
+    if not np.isfinite(evidence["natural_hz"]):
+        return ["what lies behind its spring would have no inertia"]
+    return list(reasons_unseen(evidence))
 
 
 def _sized(begun: FlexibleStart) -> FlexibleStart:
