@@ -8,9 +8,9 @@ import numpy as np
 from ...arrays import JointSeries
 from ..mechanism import Mechanism
 
-LONGEST_ANGLE: Final = 0.1
-"""Step of the simulation times the highest angular frequency of the springs: the scheme's frequencies are
-then wrong by a 24th of its square, 4e-4, and stiffnesses by twice that at that frequency, less below."""
+LONGEST_ANGLE: Final = 0.06
+"""Step of the simulation times the highest angular frequency of the springs. The scheme's frequency is then
+too high by a 24th of its square, 1.5e-4, and a stiffness too low by twice that; of slower modes by less."""
 
 
 def fastest(mechanism: Mechanism, positions: JointSeries) -> float:
