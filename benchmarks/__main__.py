@@ -13,6 +13,7 @@ NAMES = (
     "pipeline",
     "hour",
     "programme",
+    "exported",
     "light_tips",
     "nelder_mead",
     "bootstrap",
