@@ -147,7 +147,9 @@ def _run_theirs(folder: Path, scene: Scene, calls: int) -> dict[str, tuple[float
 
 def _built(scene: Scene) -> list[str]:
     """Write the lines that build pinocchio's model, body by body about its own centre of mass."""
-    place = {parameter.name: value for parameter, value in zip(scene.model.parameters, scene.truth, strict=True)}
+    place = {
+        parameter.name: value for parameter, value in zip(scene.model.parameters, scene.truth, strict=True)
+    }
     lines = []
     for number, link in enumerate(scene.robot.links, start=1):
         mass = place[f"M{number}"]
@@ -159,10 +161,14 @@ def _built(scene: Scene) -> list[str]:
         lines += [
             f"    turn << {_numbers(link.rotation)};",
             f"    inertia << {_numbers(tensor)};",
-            f"    model.addJoint({link.antecedent}, pinocchio::JointModel{joint}(), pinocchio::SE3(turn, "
-            f'Eigen::Vector3d({_numbers(link.translation)})), "{number}");',
-            f"    model.appendBodyToJoint({number}, pinocchio::Inertia({float(mass)!r}, "
-            f"Eigen::Vector3d({_numbers(centre)}), inertia));",
+            (
+                f"    model.addJoint({link.antecedent}, pinocchio::JointModel{joint}(), pinocchio::SE3(turn, "
+                f'Eigen::Vector3d({_numbers(link.translation)})), "{number}");'
+            ),
+            (
+                f"    model.appendBodyToJoint({number}, pinocchio::Inertia({float(mass)!r}, "
+                f"Eigen::Vector3d({_numbers(centre)}), inertia));"
+            ),
         ]
     return lines
 
