@@ -11,6 +11,7 @@ NAMES = (
     "regressor",
     "simulation",
     "pipeline",
+    "cost",
     "hour",
     "programme",
     "exported",
