@@ -1,4 +1,4 @@
-"""A model of the cost: every stage of an identification per unit of its work, beside the arithmetic's limit.
+"""A model of the cost: every stage per unit of its work, beside the arithmetic's limit.
 
 The limit of a stage is the time of its multiplications and additions at the rate of a large matrix product
 in the same run. Stages that move data instead are set beside the time of a copy. docs/performance.md explains
@@ -12,7 +12,15 @@ import numpy as np
 
 from benchmarks.figures import Figure, processor_seconds
 from benchmarks.scene import NOISE_SHARE, RATE_HZ, Scene, scene_of, smooth_motion
+from tests.plant.cache import kept
+from tests.plant.cases import draw_clean
+from veritorque.core.diagnosis.causes.registry import CAUSES
+from veritorque.core.diagnosis.dataset.dataset import build_dataset
+from veritorque.core.diagnosis.search.fitter import hypothesis_fitter
+from veritorque.core.dynamics.model import standard_model
 from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.reduction.base import base_model
+from veritorque.core.regressor.columns import ColumnPlan
 from veritorque.core.regressor.factor import Factor
 from veritorque.core.regressor.memory import LaggedProducts, TurningProducts
 from veritorque.core.regressor.observe import observe
@@ -20,10 +28,13 @@ from veritorque.core.robot.builtin import builtin_robot
 from veritorque.core.signals.condition import Motion, condition
 from veritorque.core.signals.parallel import Tile
 from veritorque.core.signals.recipe import FilterOptions
+from veritorque.core.validation.holdout import HoldOut
 
 OPTIONS = FilterOptions(median_order=1, cutoff_hz=10.0, position_cutoff_hz=50.0, order=5, decimation=10)
 ROBOTS = ("yumi-left", "yumi")
 SQUARE = 600
+SECONDS = 30.0
+"""Length of the log that is diagnosed."""
 LAGS = LaggedProducts.LAGS + 1
 
 
@@ -34,7 +45,7 @@ def run(*, quick: bool) -> list[Figure]:
     figures = [Figure("large matrix product, 10^9 operations/s", f"{rate / 1e9:.0f}")]
     for name in ROBOTS[:1] if quick else ROBOTS:
         figures += _of_robot(name, samples, rate)
-    return figures
+    return [*figures, *_of_candidates("planar-2" if quick else "yumi-left")]
 
 
 def _product_rate() -> float:
@@ -59,7 +70,7 @@ def _of_robot(name: str, samples: int, rate: float) -> list[Figure]:
         return f"limit {operations / rate * 1e6:.3f}"
 
     condensing = 2.0 * series * _states(tiles[0])
-    squares, kept = 2.0 * float(widths @ widths), 1.0 / motion.recipe.decimation
+    squares, each = 2.0 * float(widths @ widths), 1.0 / motion.recipe.decimation
     whole = per_sample(partial(observe, scene.plan, (motion,)))
     conditioned = per_sample(lambda: list(motion.tiles()))
     regressor = per_sample(lambda: [scene.plan.series(tile.state) for tile in tiles]) * samples / seen
@@ -85,14 +96,38 @@ def _of_robot(name: str, samples: int, rate: float) -> list[Figure]:
             "",
             limit(condensing / series),
         ),
-        Figure(f"{head}: triangular factors, us/sample", f"{factors:.3f}", "", limit(squares * kept)),
-        Figure(f"{head}: {LAGS} lagged products, us/sample", f"{lagged:.3f}", "", limit(LAGS * squares * kept)),
+        Figure(f"{head}: triangular factors, us/sample", f"{factors:.3f}", "", limit(squares * each)),
+        Figure(
+            f"{head}: {LAGS} lagged products, us/sample", f"{lagged:.3f}", "", limit(LAGS * squares * each)
+        ),
         Figure(
             f"{head}: products beside reversals ({100 * share:.0f} % of the rows), us/sample",
             f"{turning:.3f}",
             "",
-            limit(2.0 * LAGS * squares * kept * share),
+            limit(2.0 * LAGS * squares * each * share),
         ),
+    ]
+
+
+def _of_candidates(robot: str) -> list[Figure]:
+    """Time what a diagnosis does for every candidate cause at one operating point."""
+    case = kept(draw_clean, 11, robot=robot, duration=SECONDS)
+    model = standard_model(case.believed)
+    dataset = build_dataset(model, (case.log,), held_out=HoldOut(0.25, 40).chosen(1), blocks=40)
+    plain = hypothesis_fitter(dataset, ColumnPlan(model, base_model(model).kept), CAUSES)
+    none = plain.fit(())
+    there = plain.linearised_at(none)
+    candidates = there.candidates
+    samples = sum(len(stretch.state.position) for stretch in dataset.stretches)
+    columns = processor_seconds(
+        lambda: plain.linearised_at(none).columns(candidates), repeats=3, least=0.0
+    ) / len(candidates)
+    there.columns(candidates)
+    scored = processor_seconds(lambda: there.score(none, candidates), repeats=3, least=0.0) / len(candidates)
+    head = f"{len(candidates)} candidates, {len(dataset.time)} rows of {dataset.joints} joints"
+    return [
+        Figure(f"{head}: columns, us/candidate", f"{1e6 * columns:.0f}", "", f"{samples} samples"),
+        Figure(f"{head}: score test, us/candidate", f"{1e6 * scored:.0f}"),
     ]
 
 
