@@ -210,7 +210,7 @@ static inline void veritorque_gravity(const veritorque_robot *robot, const doubl
     }
 }
 
-/* Add to a composite body that of a link which it carries: XX XY XZ YY YZ ZZ MX MY MZ M, each in its frame. */
+/* Add to a composite body (XX XY XZ YY YZ ZZ MX MY MZ M) that of a link which it carries, in its own frame. */
 static inline void veritorque_add_body(const double *turn, const double *shift, const double *b, double *sum)
 {
     const double tensor[9] = {b[0], b[1], b[2], b[1], b[3], b[4], b[2], b[4], b[5]};
@@ -240,7 +240,7 @@ static inline void veritorque_add_body(const double *turn, const double *shift, 
     sum[9] += m;
 }
 
-/* Inertia matrix at q, rotors and motors included, row by row: joints * joints numbers, kg m2 (prismatic: kg).
+/* Inertia matrix at q with rotors and motors, row by row: joints * joints numbers, kg m2 (prismatic: kg).
    Composite rigid bodies: Walker & Orin 1982. */
 static inline void veritorque_inertia_matrix(const veritorque_robot *robot, const double *q, double *M)
 {
