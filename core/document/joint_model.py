@@ -208,9 +208,9 @@ def _lateness(seconds: float, deviation: float) -> str:
     way = "after" if seconds > 0.0 else "before"
     return (
         f"The torque stands in the log about {1e3 * abs(seconds):.2g} ms (standard deviation "
-        f"{1e3 * deviation:.1g} ms) {way} it acted: inertias, frictions and stiffness are biased by more than "
-        "their deviations. Move the torque by that time, or log both at the same instants. A filter of the torque, "
-        "or a spring in a rigid model, looks alike."
+        f"{1e3 * deviation:.1g} ms) {way} it acted. It biases inertias, frictions and stiffness by more than "
+        "their deviations. Move the torque by that time, or log both at the same instants. A filter of the "
+        "torque, or a spring in a rigid model, looks alike."
     )
 
 

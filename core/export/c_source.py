@@ -210,7 +210,7 @@ static inline void veritorque_gravity(const veritorque_robot *robot, const doubl
     }
 }
 
-/* Add to a composite body (XX XY XZ YY YZ ZZ MX MY MZ M) that of a link which it carries, in its own frame. */
+/* Add to a composite body (XX XY XZ YY YZ ZZ MX MY MZ M) that of a link it carries, in its frame. */
 static inline void veritorque_add_body(const double *turn, const double *shift, const double *b, double *sum)
 {
     const double tensor[9] = {b[0], b[1], b[2], b[1], b[3], b[4], b[2], b[4], b[5]};

@@ -120,7 +120,7 @@ def compiler():
 
 
 def computed_in_c(compiler, folder, found, state):
-    """Compile the header into a programme; give torque, torque of gravity and inertia matrix at every instant."""
+    """Compile the header into a programme; give torque, gravity and inertia matrix at every instant."""
     (folder / "robot.h").write_text(write_c_header(found), encoding="utf-8")
     name = c_name(found.robot.name)
     (folder / "main.c").write_text(PROGRAMME.replace("ROBOT", name), encoding="utf-8")
