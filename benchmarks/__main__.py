@@ -11,8 +11,10 @@ NAMES = (
     "regressor",
     "simulation",
     "pipeline",
+    "cost",
     "hour",
     "programme",
+    "exported",
     "light_tips",
     "nelder_mead",
     "bootstrap",
@@ -36,15 +38,19 @@ def main() -> None:
     )
     parser.add_argument("names", nargs="*", metavar="name", help=f"any of {', '.join(NAMES)}; all by default")
     parser.add_argument("--quick", action="store_true", help="small inputs: everything in about a minute")
+    parser.add_argument("--profile", action="store_true", help="of diagnosis: which functions cost most")
     arguments = parser.parse_args()
     unknown = sorted(set(arguments.names) - set(NAMES))
     if unknown:
         parser.error(f"there is no benchmark {unknown[0]!r}; there are {', '.join(NAMES)}")
+    if arguments.profile and arguments.names != ["diagnosis"]:
+        parser.error("--profile is of diagnosis alone: python -m benchmarks diagnosis --profile")
     os.environ.update(dict.fromkeys(ONE_THREAD, "1"))
     figures = importlib.import_module("benchmarks.figures")
     for name in arguments.names or NAMES:
         module = importlib.import_module(f"benchmarks.{name}")
-        figures.show((module.__doc__ or "").partition("\n")[0], module.run(quick=arguments.quick))
+        run = module.profile if arguments.profile else module.run
+        figures.show((module.__doc__ or "").partition("\n")[0], run(quick=arguments.quick))
 
 
 if __name__ == "__main__":

@@ -5,12 +5,15 @@ three stand beside those that hide nothing, stage by stage. Robots differ in the
 are compared per row that was looked at.
 """
 
+import cProfile
+import pstats
 import statistics
 import time
 from collections import defaultdict
 from collections.abc import Iterator
 from functools import cache
 from itertools import count, islice
+from pathlib import Path
 
 import numpy as np
 
@@ -32,6 +35,8 @@ BLOCKS = 40
 CLEAN_SEED = 11
 DRAWN = 10
 """Logs of a kind whose stages are measured."""
+PROFILED, SHOWN = 33, 20
+"""Logs of a kind that a profile is of, and the functions that it names."""
 TARGETS = {0: "<= 1.2", 1: "<= 2", 3: "<= 4"}
 """Median processor time by the number of hidden effects, s."""
 FIRST_STAGE = "check samples"
@@ -64,6 +69,30 @@ def run(*, quick: bool) -> list[Figure]:
     slope = float(apart @ spent / (apart @ apart))
     counts = ", ".join(str(count) for count, _ in sizes)
     return [*figures, Figure(f"power of the number of joints ({counts})", f"{slope:.2f}", "<= 2", ratio=True)]
+
+
+def profile(*, quick: bool) -> list[Figure]:
+    """Diagnose drawn logs, and give the stages and the functions that cost most, s per log.
+
+    The profiler itself costs time, in small functions the most.
+    """
+    robot, seconds, logs = (ROBOTS[0], QUICK_SECONDS[0], 1) if quick else (ROBOTS[-1], USUAL, PROFILED)
+    figures: list[Figure] = []
+    for effects in TARGETS:
+        cases = list(islice(_drawn(effects, robot, seconds), logs))
+        profiler = cProfile.Profile()
+        spent = [profiler.runcall(_stages, case)[0] for case in cases]
+        head = f"hidden effects: {effects}, drawn logs: {logs}"
+        figures += [
+            Figure(f"{head}: {stage}", f"{sum(one[stage] for one in spent) / logs:.2f}") for stage in spent[0]
+        ]
+        rows = pstats.Stats(profiler).get_stats_profile().func_profiles.items()
+        for name, one in sorted(rows, key=lambda row: -row[1].tottime)[:SHOWN]:
+            where = f"{Path(one.file_name).stem}:{one.line_number}"
+            figures.append(
+                Figure(f"  {where} {name}", f"{one.tottime / logs:.3f}", "", f"{one.ncalls} calls in all")
+            )
+    return figures
 
 
 def _by_stage(effects: int, robot: str, seconds: float, logs: int) -> list[Figure]:

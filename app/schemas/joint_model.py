@@ -56,6 +56,14 @@ class OrderModel(Open):
     ]
     simulated_position_percent: Annotated[float | None, about("the same, % of the motion's RMS")]
     crossover_hz: Annotated[float | None, about("below it noise of the torque outweighs that of positions")]
+    torque_late_s: Annotated[
+        float | None,
+        about(
+            "by how much later than it acted the torque stands in the log, s, to first order; a warning"
+            " follows where it is more than half a sample and three deviations"
+        ),
+    ]
+    torque_late_deviation_s: Annotated[float | None, about("its standard deviation, s")]
     converged: bool
     steps: list[JointStep]
 

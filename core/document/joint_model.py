@@ -4,7 +4,7 @@ import numpy as np
 
 from ..arrays import Vector
 from ..errors import VeritorqueError
-from ..joint_model.judge import turns_often
+from ..joint_model.judge import is_late, turns_often
 from ..joint_model.names import ESTIMATORS
 from ..joint_model.response import measured_response, model_response
 from ..joint_model.result import FoundModel, JointModel, Known, NotFound, relative_percent
@@ -102,6 +102,8 @@ def _model(model: FoundModel | NotFound, found: JointModel) -> dict[str, object]
         "simulated_position_rms": held_out.position_rms,
         "simulated_position_percent": held_out.position_percent,
         "crossover_hz": model.crossover_hz,
+        "torque_late_s": model.late[0],
+        "torque_late_deviation_s": model.late[1],
         "converged": fitted.converged,
         "steps": [vars(step) for step in fitted.steps],
     }
@@ -115,6 +117,8 @@ _NOTHING: dict[str, object] = {
     "simulated_position_rms": None,
     "simulated_position_percent": None,
     "crossover_hz": None,
+    "torque_late_s": None,
+    "torque_late_deviation_s": None,
     "converged": False,
     "steps": [],
 }
@@ -188,6 +192,8 @@ def _doubts(found: JointModel) -> list[str]:
             "The joint has dry friction and reverses often. Where it stands for an instant, friction is not "
             "modelled: inertia and frictions may be off by more than their deviations. Use longer strokes."
         )
+    if answers and is_late(found.record, answers[-1].late):
+        doubts.append(_lateness(*answers[-1].late))
     if asked.failure is not None:
         doubts.append(f"{_sentence(asked.failure.cause)} Remedy: {asked.failure.remedy}.")
     if asked.failure is not None and found.comparison is not None:
@@ -196,6 +202,16 @@ def _doubts(found: JointModel) -> list[str]:
             "confirmed: if there is one, the rigid model's inertia holds a part of it, beyond its deviation."
         )
     return doubts
+
+
+def _lateness(seconds: float, deviation: float) -> str:
+    way = "after" if seconds > 0.0 else "before"
+    return (
+        f"The torque stands in the log about {1e3 * abs(seconds):.2g} ms (standard deviation "
+        f"{1e3 * deviation:.1g} ms) {way} it acted. It biases inertias, frictions and stiffness by more than "
+        "their deviations. Move the torque by that time, or log both at the same instants. A filter of the "
+        "torque, or a spring in a rigid model, looks alike."
+    )
 
 
 def _sentence(cause: str) -> str:

@@ -16,7 +16,7 @@ from ..document.model.identified import IdentifiedRobot
 from ..dynamics.terms.coulomb import Coulomb
 from ..dynamics.terms.coupling import GearCoupling
 from ..robot.model import Link
-from .c_source import TYPES_AND_TORQUE
+from .c_source import TYPES_AND_DYNAMICS
 
 WIDTH = 110
 
@@ -33,9 +33,9 @@ def write_c_header(identified: IdentifiedRobot) -> str:
     guard = f"VERITORQUE_ROBOT_{name.upper()}_H"
     return "\n".join(
         [
-            _comment([*caveats(identified), f"Call veritorque_inverse_dynamics(&{name}, q, dq, ddq, tau)."]),
+            _comment([*caveats(identified), *_calls(name)]),
             f"#ifndef {guard}\n#define {guard}\n",
-            TYPES_AND_TORQUE,
+            TYPES_AND_DYNAMICS,
             _array("veritorque_link", f"{name}_links", _links(identified)),
             _array("veritorque_joint", f"{name}_joints", _joints(identified)),
             _motors(identified, name),
@@ -43,6 +43,15 @@ def write_c_header(identified: IdentifiedRobot) -> str:
             f"#endif /* {guard} */\n",
         ]
     )
+
+
+def _calls(name: str) -> list[str]:
+    """Say what can be called for the robot."""
+    return [
+        f"Torque of a motion: veritorque_inverse_dynamics(&{name}, q, dq, ddq, tau).",
+        f"Torque of gravity: veritorque_gravity(&{name}, q, tau).",
+        f"Inertia matrix: veritorque_inertia_matrix(&{name}, q, M).",
+    ]
 
 
 def c_name(text: str) -> str:

@@ -17,7 +17,7 @@ from .judge import comparison, crossover_hz, held_out, impossible, known, not_se
 from .options import JointOptions, check_joint
 from .orders import RIGID, TIME_UNIT
 from .record import JointRecord, read_joint
-from .refined_iv import Fitted, fit, residual
+from .refined_iv import Fitted, fit, residual, torque_delay
 from .result import FoundModel, JointModel, NotFound
 from .signals import ClosedLoop, closed_loop, loads_of, measured_signals, signals_of_link
 from .start import flexible_start, rigid_start
@@ -159,5 +159,11 @@ class _Fitter:
             parameters, modes = known(fitted, loads_of(self.record))
         failure = failure or impossible(fitted, parameters) or unsettled(fitted)
         return FoundModel(
-            fitted, parameters, modes, held_out(fitted, simulated), crossover_hz(fitted), failure
+            fitted,
+            parameters,
+            modes,
+            held_out(fitted, simulated),
+            crossover_hz(fitted),
+            torque_delay(fitted),
+            failure,
         )

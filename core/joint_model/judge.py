@@ -24,6 +24,8 @@ NEGLIGIBLE: Final = 1e-3
 MANY_TURNS: Final = 10.0
 """Reversals per second from which short stands between them matter. A slide with 0.6 has the published
 friction, a simulated joint with 2 its own; others with 95 have inertias 1 to 4 % off. Set by hand."""
+BETWEEN_SAMPLES: Final = 0.5
+"""Samples by which a torque may be late or early: one that is not held between samples is half of one."""
 BLOCKS: Final = 20
 """Blocks of held-out rows."""
 
@@ -125,6 +127,12 @@ def turns_often(record: JointRecord, parameters: Known) -> bool:
     turns = np.count_nonzero(np.diff(record.direction[record.direction != 0.0]))
     often = turns > MANY_TURNS * len(record.position) * record.step
     return bool(often and friction > max(CLEAR * deviation, NEGLIGIBLE * _rms(record.torque)))
+
+
+def is_late(record: JointRecord, late: tuple[float, float]) -> bool:
+    """Tell whether the torque is clearly later or earlier than what holds between samples allows."""
+    seconds, deviation = late
+    return abs(seconds) > max(CLEAR * deviation, BETWEEN_SAMPLES * record.step)
 
 
 def not_seen(evidence: Mapping[str, float]) -> ExcitationError | None:

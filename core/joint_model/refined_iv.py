@@ -128,6 +128,23 @@ def fit(model: Model, task: Task, *, most: int = MOST_STEPS) -> Fitted:
     return Fitted(model, covariance, tuple(steps), steps[-1].change < CONVERGED, task)
 
 
+def torque_delay(fitted: Fitted) -> tuple[float, float]:
+    """Give by how much later than it acted the torque stands in the log, and the standard deviation, s.
+
+    To first order a late torque u(t - T) leaves T (B / C) s u in the residual. It is one more unknown of the
+    last step, all others free.
+    """
+    model, task = fitted.model, fitted.task
+    _, noise = denominators(model, task.crossover)
+    rates = np.append(model.order.numerator(model.coefficients), 0.0)
+    own, clean = (
+        filtered(rates, noise, signals.torque, task.step, "zero")[: task.fitted]
+        for signals in (task.signals, task.instruments(model))
+    )
+    late, deviation = _Equations(model, task).one_more(own, clean)
+    return late * TIME_UNIT, deviation * TIME_UNIT
+
+
 def _damped(model: Model, task: Task, move: Vector) -> tuple[Model, float]:
     """Go as much of a step as lowers the innovations."""
     before = residual(model, task).innovation(task.fitted)
@@ -193,17 +210,32 @@ class _Equations:
         return (move / self.scale)[: self.unknowns], (deviation / self.scale)[: self.unknowns]
 
     def covariance(self) -> SquareMatrix:
-        """Give the sandwich of sums over blocks of rows, which innovations with memory leave valid.
+        """Give the covariance of coefficients and loads."""
+        _, root = _solved(self.regressors, self.instruments, self.residual)
+        root = (root / self.scale[:, None])[: self.unknowns]
+        return np.asarray(root @ root.T)
 
-        Source: Bell & McCaffrey 2002, Survey Methodology 28 (the factor for few blocks).
-        """
-        move = np.linalg.solve(self.matrix, self.instruments.T @ self.residual)
-        scores = self.instruments * (self.residual - self.regressors @ move)[:, None]
-        borders = np.linspace(0, len(scores), BLOCKS, endpoint=False).astype(int)
-        sums = np.add.reduceat(scores, borders, axis=0)
-        root = np.linalg.solve(self.matrix, sums.T) / self.scale[:, None]
-        factor = BLOCKS / max(BLOCKS - len(self.scale), 1)
-        return np.asarray(factor * (root @ root.T))[: self.unknowns, : self.unknowns]
+    def one_more(self, regressor: Samples, instrument: Samples) -> tuple[float, float]:
+        """Give the step of one more unknown with its own column, and its standard deviation."""
+        size = float(np.linalg.norm(instrument))
+        columns = np.column_stack([self.regressors, regressor / size])
+        move, root = _solved(columns, np.column_stack([self.instruments, instrument / size]), self.residual)
+        return float(move[-1]) / size, float(np.linalg.norm(root[-1])) / size
+
+
+def _solved(regressors: Matrix, instruments: Matrix, residual: Samples) -> tuple[Vector, Matrix]:
+    """Solve, and give a root of the covariance, unknowns x blocks.
+
+    It is the sandwich of sums over blocks of rows, which innovations with memory leave valid. Source: Bell &
+    McCaffrey 2002, Survey Methodology 28 (the factor for few blocks).
+    """
+    matrix = instruments.T @ regressors
+    move = np.linalg.solve(matrix, instruments.T @ residual)
+    scores = instruments * (residual - regressors @ move)[:, None]
+    borders = np.linspace(0, len(scores), BLOCKS, endpoint=False).astype(int)
+    sums = np.add.reduceat(scores, borders, axis=0)
+    factor = BLOCKS / max(BLOCKS - len(move), 1)
+    return move, np.sqrt(factor) * np.linalg.solve(matrix, sums.T)
 
 
 def _driven(model: Model, signals: Signals, denominator: Vector, step: float) -> Samples:

@@ -55,6 +55,8 @@ class FoundModel:
     modes: Known
     held_out: HeldOut
     crossover_hz: float
+    late: tuple[float, float]
+    """By how much the torque is late in the log, and the standard deviation, s."""
     failure: VeritorqueError | None = None
     """Why the log does not show it, or no joint has it; None where it is an answer."""
 

@@ -4,12 +4,10 @@ So a log's length costs no memory here either.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from itertools import pairwise
 
-import numpy as np
-
-from .model import JointLog, LogRows, rows_at
+from .model import JointLog, LogRows, joined_rows, rows_at
 
 NEIGHBOURS = 40
 """Rows on either side that a spline is laid through; further ones change nothing."""
@@ -39,9 +37,4 @@ class CorrectedSource:
         borders = {border - low for segment in self.log.segments for border in segment if low < border < high}
         cuts = sorted({0, high - low} | borders)
         parts = [self.correct(rows_at(read, slice(*cut))) for cut in pairwise(cuts)]
-        return rows_at(_concatenate(parts), slice(start - low, stop - low))
-
-
-def _concatenate(parts: list[LogRows]) -> LogRows:
-    channels = {field.name: [getattr(part, field.name) for part in parts] for field in fields(LogRows)}
-    return LogRows(**{name: np.concatenate(own) for name, own in channels.items() if own[0] is not None})
+        return rows_at(joined_rows(parts), slice(start - low, stop - low))

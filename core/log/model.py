@@ -4,6 +4,7 @@ A `JointLog` is what was measured plus what is known to be wrong with it; the sa
 (arrays in memory or a file on disk) and are read in rows from start to stop.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
@@ -150,6 +151,15 @@ class JointLog:
 def rows_at(rows: LogRows, index: slice | np.ndarray) -> LogRows:
     """Take some rows of all channels, by a slice, by number or by marks."""
     return LogRows(rows.time[index], **{name: values[index] for name, values in rows.channels().items()})
+
+
+def joined_rows(parts: Sequence[LogRows]) -> LogRows:
+    """Put the rows of parts with the same channels one after the other."""
+    channels = [part.channels() for part in parts]
+    return LogRows(
+        np.concatenate([part.time for part in parts]),
+        **{name: np.concatenate([channel[name] for channel in channels]) for name in channels[0]},
+    )
 
 
 def whole_rows(log: JointLog) -> LogRows:

@@ -30,7 +30,7 @@ from .formats.npz import open_npz
 from .formats.parquet import ParquetSource, ParquetTable, open_parquet
 from .formats.recording import open_bag, open_mcap, open_sqlite_bag
 from .formats.table import Table
-from .model import ArraySource, Defect, JointLog, LogRows, LogSource
+from .model import ArraySource, Defect, JointLog, LogRows, LogSource, joined_rows
 from .pieces.choose import choose_rows
 from .pieces.missing import scarce_channels, scarce_defect
 from .pieces.survey import survey
@@ -238,9 +238,11 @@ def _source_of(table: Table, layout: Layout) -> LogSource:
     """Open the samples of all rows."""
     if isinstance(table, ParquetTable):
         return ParquetSource(table, layout)
-    blocks = list(table.batches(layout.columns)) or [np.empty((len(layout.columns), 0))]
-    whole = blocks[0] if len(blocks) == 1 else np.hstack(blocks)
-    return ArraySource(layout.convert(whole, 0))
+    parts, samples = [layout.convert(np.empty((len(layout.columns), 0)), 0)], 0
+    for block in table.batches(layout.columns):
+        parts.append(layout.convert(block, samples))
+        samples += block.shape[1]
+    return ArraySource(joined_rows(parts))
 
 
 def _rearranged(table: Table, samples: int) -> tuple[Defect, ...]:

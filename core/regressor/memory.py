@@ -56,14 +56,13 @@ class LaggedProducts:
         """Start with no rows."""
         return cls(np.zeros((cls.LAGS + 1, columns, columns)), 0, instruments)
 
-    def extended(self, before: Rows, rows: Rows, used: int) -> "LaggedProducts":
-        """Take rows in, of which `used` are not zero, that follow the last rows of `before`."""
-        joined = np.vstack([before, rows])
+    def extended(self, rows: Rows, first: int, used: int) -> "LaggedProducts":
+        """Take in the rows from the `first` on, of which `used` are not zero; those before it are taken."""
         products = self.products.copy()
         for lag in range(self.LAGS + 1):
-            begin = max(len(before), lag)
-            if begin < len(joined):
-                products[lag] += joined[begin - lag : len(joined) - lag].T @ joined[begin:]
+            begin = max(first, lag)
+            if begin < len(rows):
+                products[lag] += rows[begin - lag : len(rows) - lag].T @ rows[begin:]
         return replace(self, products=products, rows=self.rows + used)
 
     def merged(self, other: "LaggedProducts") -> "LaggedProducts":

@@ -12,7 +12,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from ..arrays import BlockKey, Indices, JointSeries, JointVector
+from ..arrays import BlockKey, EquationRows, Indices, JointSeries, JointVector, Weights
 from ..errors import OptionError
 from ..signals.parallel import Tile
 from .block import Block, OpenBlock, Tail
@@ -213,12 +213,12 @@ class _Gathering:
         weights = None if self.weigh is None else self.weigh(pairs)
         fitted = ~np.isin(tile.block, self.held_out)
         for joint, (rows, usable) in enumerate(pairs):
-            marked = rows * (usable if weights is None else usable * weights[joint])[:, None]
+            marked = _times(rows, usable if weights is None else usable * weights[joint])
             moving, turning = usable & ~tile.turning[:, joint], tile.turning[:, joint]
             for number, kept in parts:
                 split = marked[kept][moving[kept]], marked[kept][turning[kept]]
                 self._blocks[number].take(joint, split, rows[kept, -1][usable[kept]])
-            self._remember(joint, marked * fitted[:, None], turning & fitted, int((usable & fitted).sum()))
+            self._remember(joint, _times(marked, fitted), turning & fitted, int((usable & fitted).sum()))
 
     def _sample(self, tile: Tile, kept: slice) -> None:
         """Keep some of a block's positions."""
@@ -228,8 +228,8 @@ class _Gathering:
 
     def _remember(self, joint: int, rows: np.ndarray, turning: np.ndarray, used: int) -> None:
         tail = self._tails[joint]
-        self.memory[joint] = self.memory[joint].extended(tail.rows, rows, used)
         joined = Tail(np.vstack([tail.rows, rows]), np.append(tail.turning, turning))
+        self.memory[joint] = self.memory[joint].extended(joined.rows, len(tail.rows), used)
         self.turning[joint] = self.turning[joint].extended(joined.rows, joined.turning, len(tail.rows))
         self._tails[joint] = joined.last
 
@@ -239,6 +239,11 @@ class _Gathering:
 
     def blocks(self) -> list[Block]:
         return [self._blocks[number].closed(self.log, number) for number in sorted(self._blocks)]
+
+
+def _times(rows: EquationRows, weights: Weights) -> EquationRows:
+    """Multiply rows by their weights, where these are not all one."""
+    return rows if (weights == 1.0).all() else rows * weights[:, None]
 
 
 def torque_scales(observation: Observation, chosen: tuple[int, ...] | None = None) -> JointVector:

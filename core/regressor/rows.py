@@ -103,4 +103,6 @@ def equations(plan: ColumnPlan, tile: Tile) -> Iterator[FilteredRows]:
         filtered = tile.filtered(plan.series(tile.state))
     torque = tile.filtered(np.ascontiguousarray(tile.torque.T))
     for joint, rows in enumerate(plan.rows_of):
-        yield np.vstack([filtered[rows], torque[joint]]).T, tile.usable[:, joint]
+        both = np.empty((len(tile.time), len(rows) + 1))
+        both[:, :-1], both[:, -1] = filtered[rows].T, torque[joint]
+        yield both, tile.usable[:, joint]

@@ -145,6 +145,11 @@ DOUBTS: tuple[Exclusion, ...] = (
         "it may as well be Coulomb friction, which the model has",
     ),
     Exclusion(
+        "time_delay",
+        "the torque is ahead of the positions by less than one sample",
+        "a controller holds a torque until its next sample: it acts half a sample later than it is logged",
+    ),
+    Exclusion(
         "encoder_eccentricity",
         f"the amplitude is above {ADMISSIBLE.eccentricity_represented:g} rad",
         "the first order of the error, which is fitted, omits a tenth of it",

@@ -66,12 +66,15 @@ class PayloadChange(OwnJointCause):
         return light and (not self.throughout or is_body(solved.values, solved.covariance))
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
-        """Report mass (negative: removed), centre of mass in the link's frame if observable, and instant."""
+        """Report mass (negative: removed), centre of mass in the link's frame if observable, and instant.
+
+        A joint on which weight does not act leaves the mass at zero, and the centre open.
+        """
         body = body_of(solved.values, solved.covariance)[0] if self.throughout else solved.values
         joint, mass = solved.site[0], float(body[MASS])
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
         found = [Quantity("mass", joint, "kg", mass, float(deviations[MASS]))]
-        for index, axis in enumerate("xyz", start=_FIRST):
+        for index, axis in enumerate("xyz" if mass else "", start=_FIRST):
             centre = float(body[index]) / mass
             slope = np.zeros(len(body))
             slope[index], slope[MASS] = 1.0 / mass, -centre / mass

@@ -52,6 +52,11 @@ class TimeDelay(OwnJointCause, CorrectsLog):
         """Admit a delay that a first-order column can represent."""
         return bool(abs(solved.values[0]) < ADMISSIBLE.time_delay)
 
+    def represented(self, at: Setting, solved: FittedCause) -> bool:
+        """Doubt a torque that is ahead by less than a sample, as one held from sample to sample is."""
+        held = max(1.0 / motion.log.rate_hz for motion in at.dataset.motions)
+        return not -held < float(solved.values[0]) < 0.0
+
     def statement(self, solved: FittedCause) -> str:
         """State the delay in milliseconds."""
         found = self.by_name(solved)["delay"]

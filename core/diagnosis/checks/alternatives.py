@@ -85,9 +85,7 @@ def refit_member(state: SearchState, index: int) -> Hypothesis:
 def _dropped(state: SearchState, index: int, brings: float) -> SearchState:
     """Give the state without a member, linearised there."""
     without, member = state.fitter.fit_without_each(state.chosen)[index], state.chosen.members[index]
-    fitter = state.fitter.linearised_at(without)
-    less = state.at(fitter, fitter.fit(without.members, without))
-    return less.recorded("dropped", member, -brings).excluding(member.key)
+    return state.linearised_at(without).recorded("dropped", member, -brings).excluding(member.key)
 
 
 def _comparison(

@@ -42,10 +42,12 @@ def restart_from_alignment(found: SearchState, later: Later) -> SearchState:
         return found
     kept = _without_stand_ins(found.chosen.members)
     fitter = found.fitter.linearised_at(found.fitter.fit(kept))
+    # Far from the delay the model fits little, and a free noise would take up all of a smooth torque.
+    ordinary = replace(fitter, ordinary_noise=True)
 
     @cache
     def shifted(seconds: float) -> SearchState:
-        own = fitter.with_torque(later(seconds))
+        own = ordinary.with_torque(later(seconds))
         return found.at(own, own.fit(kept))
 
     def lost(seconds: float) -> float:

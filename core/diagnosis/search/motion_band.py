@@ -31,8 +31,8 @@ def drop_what_motion_does_not_show(found: SearchState, at: At) -> SearchState:
     while (weak := _weak(state, at)) is not None:
         member, without = state.chosen.members[weak], state.fitter.fit_without_each(state.chosen)[weak]
         dropped[member.key] = np.inf
-        less = state.at(state.fitter.linearised_at(without), without)
-        state = continue_search(less.recorded("dropped", member, 0.0).excluding(member.key))
+        less = state.linearised_at(without).recorded("dropped", member, 0.0)
+        state = continue_search(less.excluding(member.key))
     return replace(state, excluded=dropped)
 
 

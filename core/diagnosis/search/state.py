@@ -50,6 +50,11 @@ class SearchState:
         """Give the state with another hypothesis and operating point."""
         return replace(self, fitter=fitter, chosen=chosen)
 
+    def linearised_at(self, chosen: Hypothesis) -> "SearchState":
+        """Give the state with a hypothesis, linearised there and fitted again to the columns there."""
+        fitter = self.fitter.linearised_at(chosen)
+        return self.at(fitter, fitter.fit(chosen.members, chosen))
+
     def recorded(self, action: str, candidate: Candidate, statistic: float) -> "SearchState":
         """Give the state with one more decision on record."""
         return replace(self, steps=(*self.steps, Step(action, candidate, statistic)))

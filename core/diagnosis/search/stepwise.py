@@ -63,8 +63,8 @@ def continue_search(
         larger = refine_jointly(before.at(state.fitter, better))
         if before.chosen.members and before.chosen.admissible and not larger.chosen.admissible:
             # Beside it what was found before would be inadmissible.
-            before = before.at(state.fitter.linearised_at(before.chosen), before.chosen)
-            state = before.recorded("dropped", entered, statistic).excluding(entered.key)
+            before = before.linearised_at(before.chosen).recorded("dropped", entered, statistic)
+            state = before.excluding(entered.key)
             continue
         through = state.through
         for changed in _exits_and_swaps(larger):
@@ -112,8 +112,7 @@ def _exits_and_swaps(state: SearchState) -> Iterator[SearchState]:
             fitter = fitter.linearised_at(fitter.fit(chosen.members[:-1], chosen))
             state = refine_jointly(changed.at(fitter, chosen))
         else:
-            fitter = fitter.linearised_at(chosen)
-            state = changed.at(fitter, fitter.fit(chosen.members, chosen))
+            state = changed.linearised_at(chosen)
         yield state
         if state.keys in earlier:
             return

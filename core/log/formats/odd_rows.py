@@ -11,6 +11,9 @@ from dataclasses import dataclass, field
 from itertools import islice, takewhile
 from pathlib import Path
 
+import numpy as np
+
+from ...arrays import Indices
 from ...errors import LogError
 from ..defects.stretch import count_text
 from .arrow import words_for_nothing
@@ -65,8 +68,8 @@ def find_odd_rows(path: Path, encoding: str, found: TextHeader) -> OddRows:
     """
     seen = _Rows(found)
     enough = MOST_ODD * path.stat().st_size / found.width  # a cell takes a byte at least
-    for lines in _blocks(path, encoding):
-        seen.take(lines)
+    for block in _blocks(path, encoding):
+        seen.take(block)
         if len(seen.odd) > enough:
             break
     below = _below(seen)
@@ -97,14 +100,18 @@ def _holds_words(line: bytes, table: TextHeader) -> bool:
     return any(is_number(first) and not (is_number(cell) or cell in _NOTHING) for cell, first in pairs)
 
 
-def _blocks(path: Path, encoding: str) -> Iterator[list[bytes]]:
+def _blocks(path: Path, encoding: str) -> Iterator[bytes]:
     """Give the lines of a file, some thousand at a time."""
     rest = b""
     with open_utf8(path, encoding) as stream:
         while block := stream.read(BLOCK_BYTES):
-            *lines, rest = (rest + block).splitlines(keepends=True)  # the last may go on
-            yield lines
-    yield [rest] if rest else []
+            text = rest + block
+            stop = len(text) - (2 if text.endswith(b"\r\n") else 1)
+            end = 1 + max(text.rfind(b"\n", 0, stop), text.rfind(b"\r", 0, stop))
+            rest = text[end:]  # the last line may go on
+            if end:
+                yield text[:end]
+    yield rest
 
 
 @dataclass
@@ -121,8 +128,20 @@ class _Rows:
     """The last lines that are not empty, with their numbers."""
     _lines: int = 0
 
-    def take(self, lines: Sequence[bytes]) -> None:
+    def take(self, block: bytes) -> None:
         """Take the next lines of the file."""
+        ends = _ends_of_rows(block, self.table) if self._lines >= self.table.skip else None
+        if ends is None:
+            self._take(block.splitlines(keepends=True))
+            return
+        begin = ends[-MOST_BELOW - 1] + 1 if len(ends) > MOST_BELOW else 0
+        self.rows += len(ends)
+        self._lines += len(ends)
+        last = block[begin:].splitlines(keepends=True)
+        self._keep_last(last, 0, self._lines - len(last))
+
+    def _take(self, lines: Sequence[bytes]) -> None:
+        """Take lines one by one."""
         begin = max(self.table.skip - self._lines, 0)
         self.rows += len(lines[begin:])
         for place in self._doubtful(lines):
@@ -132,12 +151,12 @@ class _Rows:
             elif not _is_whole(line, self.table):
                 self.first = self.first or line
                 self.odd.append(self._lines + place + 1)
-        self._keep_last(lines, begin)
+        self._keep_last(lines, begin, self._lines)
         self._lines += len(lines)
 
-    def _keep_last(self, lines: Sequence[bytes], begin: int) -> None:
+    def _keep_last(self, lines: Sequence[bytes], begin: int, before: int) -> None:
         found = ((place, lines[place]) for place in reversed(range(begin, len(lines))))
-        new = islice(((self._lines + place + 1, line) for place, line in found if line.strip()), MOST_BELOW)
+        new = islice(((before + place + 1, line) for place, line in found if line.strip()), MOST_BELOW)
         self.last = [*self.last, *reversed(list(new))][-MOST_BELOW:]
 
     def _doubtful(self, lines: Sequence[bytes]) -> Sequence[int]:
@@ -146,6 +165,23 @@ class _Rows:
             return range(len(lines))
         mark, most = self.table.delimiter.encode(), self.table.width - 1
         return [place for place, line in enumerate(lines) if line.count(mark) != most or b'"' in line]
+
+
+def _ends_of_rows(block: bytes, table: TextHeader) -> Indices | None:
+    """Give where each line ends, if all have as many separators as a row and none holds a quotation."""
+    marks = table.width - 1
+    if table.delimiter == BLANKS or not marks or b'"' in block:
+        return None
+    if b"\r" in block and block.count(b"\r") != block.count(b"\r\n"):
+        return None
+    text = np.frombuffer(block, dtype=np.uint8)
+    ends = np.flatnonzero(text == ord("\n"))
+    between = np.flatnonzero(text == ord(table.delimiter))
+    if not len(ends) or ends[-1] != len(text) - 1 or len(between) != marks * len(ends):
+        return None
+    rows = between.reshape(-1, marks)
+    apart = (rows[:, -1] < ends).all() and (rows[1:, 0] > ends[:-1]).all()
+    return ends if apart else None
 
 
 def _is_no_row(line: bytes) -> bool:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Indices
-from ..model import LogRows, LogSource, rows_at
+from ..model import LogRows, LogSource, joined_rows, rows_at
 
 BLOCK_ROWS = 32_768
 """So many rows are read at a time: a long stretch that is left out takes no memory."""
@@ -61,7 +61,7 @@ class PiecedSource:
                 found.append(_shifted(self._source.rows(piece.start + low, piece.start + high), piece.shift))
         if not found:
             return self._source.rows(self._pieces[0].start, self._pieces[0].start)
-        return found[0] if len(found) == 1 else _joined(found)
+        return found[0] if len(found) == 1 else joined_rows(found)
 
 
 class WithoutRows:
@@ -105,7 +105,7 @@ class WithoutRows:
         if first >= last:
             return self._source.rows(first, first)
         parts = [self._whole(at, min(at + BLOCK_ROWS, last)) for at in range(first, last, BLOCK_ROWS)]
-        return parts[0] if len(parts) == 1 else _joined(parts)
+        return parts[0] if len(parts) == 1 else joined_rows(parts)
 
     def _whole(self, first: int, last: int) -> LogRows:
         rows = self._source.rows(first, last)
@@ -119,11 +119,3 @@ class WithoutRows:
 
 def _shifted(rows: LogRows, shift: float) -> LogRows:
     return LogRows(rows.time + shift, **rows.channels()) if shift else rows
-
-
-def _joined(parts: Sequence[LogRows]) -> LogRows:
-    channels = [part.channels() for part in parts]
-    return LogRows(
-        np.concatenate([part.time for part in parts]),
-        **{name: np.concatenate([channel[name] for channel in channels]) for name in channels[0]},
-    )

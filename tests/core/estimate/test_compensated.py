@@ -104,7 +104,7 @@ def test_it_has_no_bias_where_least_squares_has_one():
 def test_deviations_are_those_of_repeated_draws():
     listed = [rows(100 + seed, 0.2) for seed in range(200)]
     found = [system(values, 0.2).solved() for values in listed]
-    memory = (LaggedProducts.empty(4).extended(listed[0][:0], listed[0], ROWS),)
+    memory = (LaggedProducts.empty(4).extended(listed[0], 0, ROWS),)
     claimed = infer(system(listed[0], 0.2), memory, ALL, found[0]).standard_deviation
     np.testing.assert_allclose(claimed, np.std(found, axis=0), rtol=0.25)
 

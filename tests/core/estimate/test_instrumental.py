@@ -72,7 +72,7 @@ def rows(rng: np.random.Generator, error: float) -> np.ndarray:
 
 def condensed(values: np.ndarray) -> tuple[tuple[Factor, ...], tuple[LaggedProducts, ...]]:
     """Give the factor and the lagged products of the rows of one joint."""
-    memory = LaggedProducts.empty(7, 3).extended(values[:0], values, len(values))
+    memory = LaggedProducts.empty(7, 3).extended(values, 0, len(values))
     return (Factor.of(values, GROUPS),), (memory,)
 
 

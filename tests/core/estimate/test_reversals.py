@@ -48,11 +48,11 @@ def test_the_weight_is_the_ratio_of_the_noises_and_one_where_the_moving_rows_do_
 def test_discounted_products_are_those_of_rows_that_were_weighted_before():
     rng = np.random.default_rng(3)
     rows, turning = rng.normal(size=(90, 4)), rng.random(90) < 0.3
-    whole, part = LaggedProducts.empty(4).extended(rows[:0], rows, 90), TurningProducts.empty(4)
+    whole, part = LaggedProducts.empty(4).extended(rows, 0, 90), TurningProducts.empty(4)
     part = part.extended(rows[:40], turning[:40], 0)
     part = part.extended(rows[20:], turning[20:], 20)
     weighted = np.where(turning[:, None], 0.3, 1.0) * rows
-    direct = LaggedProducts.empty(4).extended(rows[:0], weighted, 90)
+    direct = LaggedProducts.empty(4).extended(weighted, 0, 90)
     found, expected = (
         both + np.swapaxes(both, 1, 2) for both in (part.discounted(whole, 0.3).products, direct.products)
     )

@@ -5,6 +5,7 @@ import io
 import json
 import shutil
 import subprocess
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -93,13 +94,17 @@ PROGRAMME = """#include <stdio.h>
 
 int main(void)
 {
-    double q[64], dq[64], ddq[64], tau[64];
+    double q[64], dq[64], ddq[64], tau[64], M[64 * 64];
     int j;
     while (1) {
         for (j = 0; j < ROBOT.joints; ++j)
             if (scanf("%lf %lf %lf", &q[j], &dq[j], &ddq[j]) != 3) return 0;
         veritorque_inverse_dynamics(&ROBOT, q, dq, ddq, tau);
         for (j = 0; j < ROBOT.joints; ++j) printf("%.17g ", tau[j]);
+        veritorque_gravity(&ROBOT, q, tau);
+        for (j = 0; j < ROBOT.joints; ++j) printf("%.17g ", tau[j]);
+        veritorque_inertia_matrix(&ROBOT, q, M);
+        for (j = 0; j < ROBOT.joints * ROBOT.joints; ++j) printf("%.17g ", M[j]);
         printf("\\n");
     }
 }
@@ -114,8 +119,8 @@ def compiler():
     return found
 
 
-def torque_in_c(compiler, folder, found, state):
-    """Compile the header into a programme and let it compute."""
+def computed_in_c(compiler, folder, found, state):
+    """Compile the header into a programme; give torque, gravity and inertia matrix at every instant."""
     (folder / "robot.h").write_text(write_c_header(found), encoding="utf-8")
     name = c_name(found.robot.name)
     (folder / "main.c").write_text(PROGRAMME.replace("ROBOT", name), encoding="utf-8")
@@ -126,18 +131,33 @@ def torque_in_c(compiler, folder, found, state):
     answer = subprocess.run(
         [folder / "main"], input=text, capture_output=True, text=True, check=True, cwd=folder
     )
-    return np.array([[float(one) for one in line.split()] for line in answer.stdout.splitlines()])
+    rows = np.array([[float(one) for one in line.split()] for line in answer.stdout.splitlines()])
+    joints = state.position.shape[1]
+    return rows[:, :joints], rows[:, joints : 2 * joints], rows[:, 2 * joints :].reshape(-1, joints, joints)
 
 
 def test_the_c_header_computes_the_whole_torque_of_the_model(compiler, found, tmp_path):
     state = brisk(found.robot)
-    theirs = torque_in_c(compiler, tmp_path, found, state)
+    theirs, _, _ = computed_in_c(compiler, tmp_path, found, state)
     np.testing.assert_allclose(theirs, found.model.torque(found.standard, state), rtol=0, atol=1e-9)
+
+
+def test_the_c_header_computes_gravity_and_the_inertia_matrix_of_the_model(compiler, found, tmp_path):
+    state, model = brisk(found.robot), found.model
+    _, gravity, inertia = computed_in_c(compiler, tmp_path, found, state)
+    still = replace(state, velocity=np.zeros_like(state.velocity), acceleration=np.zeros_like(state.velocity))
+    at_rest = model.torque(found.standard, still)
+    np.testing.assert_allclose(gravity, at_rest - found.of_joints("OFF"), rtol=0, atol=1e-9)
+    for joint in range(state.position.shape[1]):
+        pushed = still.acceleration.copy()
+        pushed[:, joint] = 1.0
+        column = model.torque(found.standard, replace(still, acceleration=pushed)) - at_rest
+        np.testing.assert_allclose(inertia[:, :, joint], column, rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize("name", ["yumi-left", "two coupled motors"])
 def test_the_c_header_smooths_the_sign_of_friction_as_the_model_does(compiler, name, tmp_path):
     found = smoothed(identified(ROBOTS[name]))
     state = brisk(found.robot)
-    theirs = torque_in_c(compiler, tmp_path, found, state)
+    theirs, _, _ = computed_in_c(compiler, tmp_path, found, state)
     np.testing.assert_allclose(theirs, found.model.torque(found.standard, state), rtol=0, atol=1e-9)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from tests.core.joint_model.plant import Plant, Run, log_of, recorded, robot_of
+from veritorque.core.document.joint_model import joint_document
 from veritorque.core.errors import ExcitationError, OptionError, SolverError
 from veritorque.core.identification.identify import no_progress
 from veritorque.core.joint_identification import JointRequest, model_joint
@@ -35,6 +36,30 @@ def errors(found: JointModel, plant: Plant) -> dict[str, tuple[float, float]]:
         name: (value / true[name] - 1.0, (value - true[name]) / deviation)
         for name, (value, deviation) in known.items()
     }
+
+
+def moved(signals: dict[str, np.ndarray], samples: int) -> dict[str, np.ndarray]:
+    """Write the torque down so many samples later, or earlier."""
+    ahead, behind = max(samples, 0), max(-samples, 0)
+    rows = slice(ahead, len(signals["time"]) - behind)
+    kept = slice(behind, len(signals["time"]) - ahead)
+    return {name: series[kept if name == "torque" else rows] for name, series in signals.items()}
+
+
+@pytest.mark.parametrize(
+    ("plant", "order"), [(Plant.with_mode(12.0), "flexible"), (Plant(stiffness=None, coulomb=3.0), "rigid")]
+)
+def test_a_torque_that_is_late_or_early_in_the_log_is_measured_and_warned_of(plant, order):
+    run = Run(highest_hz=18.0, seconds=6.0, noise=ENCODER, torque_noise=0.3)
+    signals = recorded(plant, run)
+    for samples in (0, 2, -2):
+        found = identify_joint(
+            robot_of(), log_of(moved(signals, samples)), JointOptions(1, order), no_progress
+        )
+        doubts = joint_document(found, version="", options={})["doubts"]
+        late, deviation = found.models[-1].late
+        assert late == pytest.approx(samples / run.rate, abs=0.4 / run.rate + 3.0 * deviation)
+        assert any("it acted" in doubt for doubt in doubts) == (samples != 0)
 
 
 MODES = [8.0, 12.0, 25.0, 40.0]

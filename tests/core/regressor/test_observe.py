@@ -185,7 +185,7 @@ def _same_statistic(one: Observation, other: Observation) -> None:
 def test_memory_is_that_of_the_rows_one_after_another(observation, plan, motion):
     for joint in (0, 6):
         rows = np.vstack([_marked(plan, tile)[joint] for tile in motion.tiles()])
-        direct = LaggedProducts.empty(rows.shape[1]).extended(rows[:0], rows, 0)
+        direct = LaggedProducts.empty(rows.shape[1]).extended(rows, 0, 0)
         assert np.allclose(observation.memory[joint].products, direct.products, rtol=1e-9, atol=1e-6)
 
 

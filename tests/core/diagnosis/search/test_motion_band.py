@@ -1,5 +1,6 @@
 """A delay that the motion's own band does not show is dropped; one that it shows stays."""
 
+import numpy as np
 import pytest
 
 from tests.core.diagnosis.scenes import fitter_of, measured_arm
@@ -7,6 +8,7 @@ from tests.core.diagnosis.search.test_alignment import LATE, late
 from veritorque.core.diagnosis.causes.time_delay import TimeDelay
 from veritorque.core.diagnosis.dataset.dataset import build_dataset
 from veritorque.core.diagnosis.search.motion_band import drop_what_motion_does_not_show
+from veritorque.core.diagnosis.search.state import SearchState
 from veritorque.core.diagnosis.search.stepwise import search_stepwise
 from veritorque.core.errors import ExcitationError
 
@@ -42,3 +44,20 @@ def test_nothing_is_dropped_where_no_row_is_left(found):
         raise ExcitationError("no stretch is long enough", evidence={}, remedy="record more")
 
     assert drop_what_motion_does_not_show(found, refuse).chosen is found.chosen
+
+
+def test_a_state_at_another_operating_point_holds_the_fit_to_the_columns_there(found):
+    begun = fitter_of(measured_arm(late(LATE)), [TimeDelay()])
+    state = SearchState(begun.linearised_at(begun.fit(())), begun.fit(()), begun.fit(()))
+    there = state.fitter.fit(found.chosen.members)
+    moved = state.linearised_at(there)
+    stale = moved.at(moved.fitter, there)
+    assert _moves_when_fitted_again(moved) < 1e-3
+    assert _moves_when_fitted_again(stale) > 0.1
+
+
+def _moves_when_fitted_again(state):
+    """Give how far the delay moves, in deviations."""
+    again = state.fitter.fit(state.chosen.members, state.chosen)
+    values, before = again.fit.values[-1], state.chosen.fit.values[-1]
+    return abs(values - before) / np.sqrt(again.fit.covariance[-1, -1])
