@@ -108,7 +108,7 @@ class SpringQuantity(Open):
     unit: str
     standard_deviation: float
     relative_deviation_percent: float | None
-    interval_95: tuple[float, float]
+    interval_95: Annotated[list[float], Field(min_length=2, max_length=2)]
 
 
 class FlexibleJoint(Open):

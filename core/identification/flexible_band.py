@@ -4,7 +4,7 @@ The first estimate takes the links to be where the torques say they are. Far abo
 motion, and far below it a spring hardly shows: the band follows the modes that are found.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Final
 
@@ -43,6 +43,7 @@ def with_springs(problem: Problem, joints: tuple[int, ...], options: FilterOptio
     ExcitationError
         If the logs do not show that they are.
     """
+    _check_motion(problem.motions, joints)
     own = replace(problem, base=base_model(problem.base.model.with_term(FlexibleJoints(joints))))
     if options.cutoff_hz is not None:
         return _sized(_checked(begin(own)))
@@ -54,6 +55,16 @@ def with_springs(problem: Problem, joints: tuple[int, ...], options: FilterOptio
         except (ExcitationError, OptionError) as error:
             failure = failure or error
     raise failure or unseen(list(joints), {}, "no band shows it")
+
+
+def _check_motion(motions: Sequence[Motion], joints: tuple[int, ...]) -> None:
+    """Refuse joints that stand all the time in a log, or whose torque was not measured."""
+    for motion in motions:
+        unmeasured = motion.segments[0].unmeasured
+        for marks, why in ((motion.recipe.held, "they stand"), (unmeasured, "their torque was not measured")):
+            hidden = [joint for joint in joints if marks[joint - 1]]
+            if hidden:
+                raise unseen(hidden, {"joints": hidden, "log": motion.log.name}, why)
 
 
 def _followed(problem: Problem, options: FilterOptions, band: float) -> FlexibleStart:

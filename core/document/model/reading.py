@@ -14,6 +14,7 @@ from ...dynamics.terms.rotor_inertia_missing import MissingRotor
 from ...errors import RobotError
 from ...estimate.smoothing import with_widths
 from ...extension.fold import fold, parts_of
+from ...reduction.base import flexible_joints
 from ...robot.description import robot_from_description
 from ...robot.frames import nearest_rotation
 from ...robot.model import Coupling, Parameter, RobotModel
@@ -93,6 +94,14 @@ def model_of_result(document: Document, robot: RobotModel) -> DynamicModel:
     )
 
 
+def _spring_remarks(model: DynamicModel) -> list[str]:
+    """Say of flexible joints that files of rigid robots hold no springs."""
+    joints = ", ".join(str(joint + 1) for joint in flexible_joints(model))
+    if not joints:
+        return []
+    return [f"Joints with a spring between motor and link: {joints}. Files of rigid robots hold no springs."]
+
+
 def _uncorrected_model(document: Document) -> IdentifiedRobot:
     """Give the model as it was identified, before any correction."""
     document = plain_document(document)
@@ -105,7 +114,7 @@ def _uncorrected_model(document: Document) -> IdentifiedRobot:
         standard=np.array([float(row["value"]) for row in own]),
         identifiable=tuple(row["identifiable"] for row in own),
         base=_base_values(document),
-        remarks=(*answer_remarks(document), *([ESSENTIAL] if essential else [])),
+        remarks=(*answer_remarks(document), *([ESSENTIAL] if essential else []), *_spring_remarks(model)),
     )
 
 

@@ -107,7 +107,7 @@ def _read(value: Any, annotation: object, predictions: Sequence[Prediction]) -> 
     if annotation is float:
         return float(value)
     if isinstance(value, list):
-        return _numbers(value)
+        return _numbers(value, int if annotation == tuple[int, ...] else float)
     return value
 
 
