@@ -170,6 +170,13 @@ def refuse_too_little(dataset: Dataset, plan: ColumnPlan) -> None:
         )
 
 
+def identification_width(dataset: Dataset) -> float:
+    """Give the ratio of an identification's band to the motion's, which noise of positions narrows."""
+    prismatic = prismatic_joints(dataset.robot)
+    recipes = [choose_recipe(motion.log, FilterOptions(), prismatic) for motion in dataset.motions]
+    return min(recipe.cutoff_hz / recipe.motion_band_hz for recipe in recipes)
+
+
 def later_torque(dataset: Dataset, seconds: float) -> JointSeries:
     """Give a data set's torque, taken so many seconds later: rows x joints, N m or N."""
     share = _share([motion.log.duration for motion in dataset.motions])
