@@ -14,9 +14,10 @@ from scipy.stats import median_abs_deviation
 
 from ..arrays import JointSeries, JointVector, Mask, Matrix, Samples
 from ..dynamics.prediction import Prediction
+from ..errors import ExcitationError
 from ..robot.model import INERTIAL_SYMBOLS
 from .causes.sample_check import disturbance
-from .dataset.dataset import Dataset
+from .dataset.dataset import Dataset, identification_width
 from .regression.ar_noise import ARNoise, run_indices
 from .thresholds.dataset import BAND
 
@@ -33,19 +34,23 @@ def limit_bandwidth(dataset_at: Callable[[float], Fitted]) -> Fitted:
     ----------
     dataset_at
         Gives the data set of a width (bandwidth over the motion's), the prediction of a plain fit to it, and
-        the noise of its residual.
+        the noise of its residual; refuses one of too few rows.
     """
     width = BAND.over_motion
     fitted = dataset_at(width)
+    narrowest = min(BAND.narrowest, identification_width(fitted[0]))
     even, even_shares = position_noise_torque(fitted, over_stamps=False)
     for _ in range(BAND.narrowings):
         dataset, share = fitted[0], float(np.max(even_shares))
-        if share <= BAND.noise_share or width <= BAND.narrowest:
+        if share <= BAND.noise_share or width <= narrowest:
             break
         actual = dataset.band_hz / dataset.motion_band_hz
         factor = (BAND.noise_share / share) ** BAND.noise_power
-        width = max(BAND.narrowest, min(width, actual) * min(factor, BAND.most_narrowing))
-        fitted = dataset_at(width)
+        width = max(narrowest, min(width, actual) * min(factor, BAND.most_narrowing))
+        try:
+            fitted = dataset_at(width)
+        except ExcitationError:  # so narrow a band leaves too few rows
+            break
         even, even_shares = position_noise_torque(fitted, over_stamps=False)
     # With scattered stamps a wide band still shows friction, but no delay, filter or spring.
     scattered, scattered_shares = position_noise_torque(fitted, over_stamps=True)

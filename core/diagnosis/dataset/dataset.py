@@ -170,6 +170,13 @@ def refuse_too_little(dataset: Dataset, plan: ColumnPlan) -> None:
         )
 
 
+def identification_width(dataset: Dataset) -> float:
+    """Give the ratio of an identification's band to the motion's, which noise of positions narrows."""
+    prismatic = prismatic_joints(dataset.robot)
+    recipes = [choose_recipe(motion.log, FilterOptions(), prismatic) for motion in dataset.motions]
+    return min(recipe.cutoff_hz for recipe in recipes) / dataset.motion_band_hz
+
+
 def later_torque(dataset: Dataset, seconds: float) -> JointSeries:
     """Give a data set's torque, taken so many seconds later: rows x joints, N m or N."""
     share = _share([motion.log.duration for motion in dataset.motions])
@@ -225,12 +232,13 @@ def _options(log: JointLog, width: float, robot: RobotModel) -> FilterOptions:
 
     Absurd positions are replaced only where the log is known to have some.
     """
-    band = choose_recipe(log, FilterOptions(), prismatic_joints(robot)).motion_band_hz
+    spiky = any((defect.kind, defect.channel) == ("outliers", "position") for defect in log.defects)
+    known = FilterOptions(median_order=FilterOptions.median_order if spiky else 1)
+    band = choose_recipe(log, known, prismatic_joints(robot)).motion_band_hz
     cutoff = min(width * band, log.rate_hz / BAND.rate)
     thin = thinning(log.rate_hz, cutoff)
-    spiky = any((defect.kind, defect.channel) == ("outliers", "position") for defect in log.defects)
     return FilterOptions(
-        median_order=FilterOptions.median_order if spiky else 1,
+        median_order=known.median_order,
         cutoff_hz=cutoff,
         position_cutoff_hz=min(BAND.position * cutoff, BAND.position_over_rate * log.rate_hz),
         order=BAND.order,

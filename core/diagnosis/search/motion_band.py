@@ -2,7 +2,7 @@
 
 A controller answers the encoder's error that the log shows. Above the motion, torque and the columns of
 springs, delays and filters then hold the same error, and prewhitening raises just those frequencies. A true
-one moves the robot: in a band as narrow as an identification's, where that error is small, it is still
+one moves the robot: in a band as narrow as the identification's, where that error is small, it is still
 significant. Source: Soderstrom, Errors-in-Variables Methods in System Identification (2018), ch. 1.
 """
 
@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from ...errors import ExcitationError
-from ..dataset.dataset import Dataset
+from ..dataset.dataset import Dataset, identification_width
 from ..thresholds.dataset import BAND
 from ..thresholds.search import ENTRY
 from .fitter import HypothesisFitter, hypothesis_fitter
@@ -42,10 +42,11 @@ def _weak(state: SearchState, at: At) -> int | None:
     doubtful = [
         place for place, member in enumerate(chosen.members) if member.cause.traits.like_position_noise
     ]
-    if not doubtful or fitter.dataset.width <= BAND.narrowest:
+    width = min(BAND.narrowest, identification_width(fitter.dataset))
+    if not doubtful or fitter.dataset.width <= width:
         return None
     try:
-        there = _fitter_on(at(BAND.narrowest), fitter)
+        there = _fitter_on(at(width), fitter)
     except ExcitationError:  # stretches as short as the log's hold no row of so narrow a band
         return None
     whole = there.fit(chosen.members)

@@ -8,8 +8,10 @@ from tests.core.diagnosis.scenes import ARM_RATE_HZ, skew_arm
 from tests.core.dynamics.terms.motions import swinging
 from tests.core.estimate.worlds import true_parameters
 from veritorque.core.diagnosis.bandwidth import beyond_cubics, few_off
+from veritorque.core.diagnosis.thresholds.dataset import BAND
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.signals.recipe import FilterOptions, choose_recipe
 from veritorque.core.study import IdentifyRequest, diagnose
 
 SCATTER = 6e-5
@@ -81,3 +83,19 @@ def test_a_stamp_is_off_beside_others_that_scatter_less():
     assert few_off(stamps).sum() <= 10
     stamps[::100] += off
     assert not few_off(stamps).any()
+
+
+@pytest.mark.slow
+def test_the_band_is_as_narrow_as_noise_of_positions_makes_the_identification_s():
+    state, rng = swinging(3, 20.0), np.random.default_rng(3)
+    model = standard_model(skew_arm())
+    torque = model.torque(true_parameters(model), state)
+    torque += 0.02 * rng.normal(size=torque.shape)
+    time = np.arange(len(torque)) / ARM_RATE_HZ
+    position = state.position + 5e-3 * np.random.default_rng(4).normal(size=torque.shape)
+    log = log_from_arrays("arm", time, position, torque)
+    answer = diagnose(IdentifyRequest(skew_arm(), (log,), {"bootstrap": {"draws": 0}}))["diagnosis"]
+    band = choose_recipe(log, FilterOptions(median_order=1)).motion_band_hz
+    assert choose_recipe(log, FilterOptions()).cutoff_hz < 0.8 * BAND.narrowest * band
+    assert answer["band_hz"] < 0.9 * BAND.narrowest * band
+    assert answer["findings"] == []
