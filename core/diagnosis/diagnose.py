@@ -153,8 +153,7 @@ def _check_samples(problem: DiagnosisProblem) -> tuple[list[Finding], Hypothesis
 
     def fit_at(width: float) -> Fitted:
         dataset = _dataset(problem, width)
-        if fits:
-            refuse_too_little(dataset, problem.plan)
+        refuse_too_little(dataset, problem.plan)
         fitter, found = _plain_fit(hypothesis_fitter(dataset, problem.plan, ()))
         plain.append((fitter, found))
         noise = tuple(joint.noise for joint in found.fit.joints)

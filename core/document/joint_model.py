@@ -192,8 +192,7 @@ def _doubts(found: JointModel) -> list[str]:
             "The joint has dry friction and reverses often. Where it stands for an instant, friction is not "
             "modelled: inertia and frictions may be off by more than their deviations. Use longer strokes."
         )
-    if answers and is_late(found.record, answers[-1].late):
-        doubts.append(_lateness(*answers[-1].late))
+    doubts += [_lateness(*one.late) for one in answers[-1:] if is_late(found.record, one.late)]
     if asked.failure is not None:
         doubts.append(f"{_sentence(asked.failure.cause)} Remedy: {asked.failure.remedy}.")
     if asked.failure is not None and found.comparison is not None:

@@ -170,9 +170,7 @@ class _Rows:
 def _ends_of_rows(block: bytes, table: TextHeader) -> Indices | None:
     """Give where each line ends, if all have as many separators as a row and none holds a quotation."""
     marks = table.width - 1
-    if table.delimiter == BLANKS or not marks or b'"' in block:
-        return None
-    if b"\r" in block and block.count(b"\r") != block.count(b"\r\n"):
+    if table.delimiter == BLANKS or not marks or b'"' in block or _has_other_ends(block):
         return None
     text = np.frombuffer(block, dtype=np.uint8)
     ends = np.flatnonzero(text == ord("\n"))
@@ -182,6 +180,11 @@ def _ends_of_rows(block: bytes, table: TextHeader) -> Indices | None:
     rows = between.reshape(-1, marks)
     apart = (rows[:, -1] < ends).all() and (rows[1:, 0] > ends[:-1]).all()
     return ends if apart else None
+
+
+def _has_other_ends(block: bytes) -> bool:
+    """Tell whether some line ends in a carriage return alone."""
+    return b"\r" in block and block.count(b"\r") != block.count(b"\r\n")
 
 
 def _is_no_row(line: bytes) -> bool:
