@@ -35,7 +35,7 @@ NAVIGATION = {
         "operating",
     ],
     "Reference": ["api", "options", "problems", "formats", "terms", "causes"],
-    "Explanation": ["method", "estimators", "feasibility", "precision", "accuracy", "limits", "decisions"],
+    "Explanation": ["method", "estimators", "feasibility", "precision", "accuracy", "performance", "limits", "decisions"],
 }
 
 _HERE = Path(__file__).parent
