@@ -35,7 +35,16 @@ NAVIGATION = {
         "operating",
     ],
     "Reference": ["api", "options", "problems", "formats", "terms", "causes"],
-    "Explanation": ["method", "estimators", "feasibility", "precision", "accuracy", "performance", "limits", "decisions"],
+    "Explanation": [
+        "method",
+        "estimators",
+        "feasibility",
+        "precision",
+        "accuracy",
+        "performance",
+        "limits",
+        "decisions",
+    ],
 }
 
 _HERE = Path(__file__).parent
