@@ -32,8 +32,8 @@ class Band:
     with the square of frequency, its mean square in a band with the fifth power of the band's edge."""
     most_narrowing: float = 0.85
     """Largest factor of one narrowing."""
-    narrowings: int = 4
-    """Narrowings at most."""
+    narrowings: int = 10
+    """Narrowings at most: enough for a fifth of the widest band, and mostly for the identification's."""
     stamp_deviations: float = 6.0
     """Standard deviations from its neighbours from which a time stamp is off."""
     stamp_share: float = 1e-3
