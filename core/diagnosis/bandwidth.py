@@ -46,17 +46,24 @@ def limit_bandwidth(dataset_at: Callable[[float], Fitted]) -> Fitted:
             break
         actual = dataset.band_hz / dataset.motion_band_hz
         factor = (BAND.noise_share / share) ** BAND.noise_power
-        width = max(narrowest, min(width, actual) * min(factor, BAND.most_narrowing))
-        try:
-            fitted = dataset_at(width)
-        except ExcitationError:  # so narrow a band leaves too few rows
-            break
+        asked = max(narrowest, min(width, actual) * min(factor, BAND.most_narrowing))
+        fitted = _narrowed(dataset_at, fitted, asked)
+        width = fitted[0].width
+        narrowest = narrowest if width <= asked else BAND.narrowest
         even, even_shares = position_noise_torque(fitted, over_stamps=False)
     # With scattered stamps a wide band still shows friction, but no delay, filter or spring.
     scattered, scattered_shares = position_noise_torque(fitted, over_stamps=True)
     dataset, operating_point, noise = fitted
     dataset = replace(dataset, position_torque=np.where(scattered_shares > even_shares, scattered, even))
     return dataset, operating_point, noise
+
+
+def _narrowed(dataset_at: Callable[[float], Fitted], fitted: Fitted, width: float) -> Fitted:
+    """Narrow a data set; only to the usual least width, or not at all, where too few rows would be left."""
+    try:
+        return dataset_at(width)
+    except ExcitationError:
+        return dataset_at(BAND.narrowest) if fitted[0].width > BAND.narrowest > width else fitted
 
 
 def position_noise_torque(fitted: Fitted, *, over_stamps: bool) -> tuple[JointSeries, JointVector]:

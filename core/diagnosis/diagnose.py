@@ -23,7 +23,7 @@ from .checks.findings import finding, sample_finding
 from .checks.holdout_outliers import Explained, has_holdout_outliers, with_other_holdout, with_typical_holdout
 from .checks.kurtosis import bounded_residual
 from .checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
-from .dataset.dataset import Dataset, build_dataset, later_torque, refuse_too_little
+from .dataset.dataset import Dataset, build_dataset, later_torque, refuse_too_little, refuse_unjudged
 from .problem import DiagnosisProblem
 from .residual.atlas import atlas
 from .residual.learner import Predictable, predictable_share
@@ -154,6 +154,7 @@ def _check_samples(problem: DiagnosisProblem) -> tuple[list[Finding], Hypothesis
     def fit_at(width: float) -> Fitted:
         dataset = _dataset(problem, width)
         refuse_too_little(dataset, problem.plan)
+        refuse_unjudged(dataset, fits[0][0] if fits else dataset)
         fitter, found = _plain_fit(hypothesis_fitter(dataset, problem.plan, ()))
         plain.append((fitter, found))
         noise = tuple(joint.noise for joint in found.fit.joints)

@@ -25,6 +25,7 @@ from ...signals.condition import Motion, condition
 from ...signals.recipe import FilterOptions, choose_recipe
 from ...signals.state import MotionState, concatenate_states
 from ..thresholds.dataset import BAND, ROWS
+from ..thresholds.residual import PREDICTION
 from .columns import term_columns
 from .segments import DatasetSegment, later_torques, segments_of, thinning
 from .stretch import Stretch
@@ -170,11 +171,28 @@ def refuse_too_little(dataset: Dataset, plan: ColumnPlan) -> None:
         )
 
 
+def refuse_unjudged(dataset: Dataset, wide: Dataset) -> None:
+    """Refuse an unusually narrow band in which a joint's residual cannot be judged, as it can in a wide one.
+
+    Raises
+    ------
+    ExcitationError
+        If there is such a joint.
+    """
+    rows, enough = dataset.clear.sum(axis=0), wide.clear.sum(axis=0) >= PREDICTION.least_rows
+    if dataset.width < BAND.narrowest and (rows[enough] < PREDICTION.least_rows).any():
+        raise ExcitationError(
+            "so narrow a band leaves too few instants to judge what a model leaves",
+            evidence={"instants": rows.tolist(), "needed": PREDICTION.least_rows},
+            remedy="record more motion, or positions with less noise",
+        )
+
+
 def identification_width(dataset: Dataset) -> float:
     """Give the ratio of an identification's band to the motion's, which noise of positions narrows."""
     prismatic = prismatic_joints(dataset.robot)
     recipes = [choose_recipe(motion.log, FilterOptions(), prismatic) for motion in dataset.motions]
-    return min(recipe.cutoff_hz for recipe in recipes) / dataset.motion_band_hz
+    return min(recipe.cutoff_hz / recipe.motion_band_hz for recipe in recipes)
 
 
 def later_torque(dataset: Dataset, seconds: float) -> JointSeries:
@@ -232,13 +250,12 @@ def _options(log: JointLog, width: float, robot: RobotModel) -> FilterOptions:
 
     Absurd positions are replaced only where the log is known to have some.
     """
-    spiky = any((defect.kind, defect.channel) == ("outliers", "position") for defect in log.defects)
-    known = FilterOptions(median_order=FilterOptions.median_order if spiky else 1)
-    band = choose_recipe(log, known, prismatic_joints(robot)).motion_band_hz
+    band = choose_recipe(log, FilterOptions(), prismatic_joints(robot)).motion_band_hz
     cutoff = min(width * band, log.rate_hz / BAND.rate)
     thin = thinning(log.rate_hz, cutoff)
+    spiky = any((defect.kind, defect.channel) == ("outliers", "position") for defect in log.defects)
     return FilterOptions(
-        median_order=known.median_order,
+        median_order=FilterOptions.median_order if spiky else 1,
         cutoff_hz=cutoff,
         position_cutoff_hz=min(BAND.position * cutoff, BAND.position_over_rate * log.rate_hz),
         order=BAND.order,

@@ -31,6 +31,7 @@ class Law:
     has_memory: ClassVar[bool] = False
     channel: ClassVar[bool] = False
     loads: ClassVar[bool] = False
+    shapes_motion: ClassVar[bool] = False
 
     def parameters(self, robot):
         return (Parameter("LAW", 1, 1, "N", None),)
