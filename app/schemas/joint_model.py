@@ -60,7 +60,7 @@ class OrderModel(Open):
         float | None,
         about(
             "by how much later than it acted the torque stands in the log, s, to first order; a warning"
-            " follows where it is more than half a sample and three deviations"
+            " follows where it is more than half a sample by three deviations"
         ),
     ]
     torque_late_deviation_s: Annotated[float | None, about("its standard deviation, s")]

@@ -132,7 +132,7 @@ def turns_often(record: JointRecord, parameters: Known) -> bool:
 def is_late(record: JointRecord, late: tuple[float, float]) -> bool:
     """Tell whether the torque is clearly later or earlier than what holds between samples allows."""
     seconds, deviation = late
-    return abs(seconds) > max(CLEAR * deviation, BETWEEN_SAMPLES * record.step)
+    return abs(seconds) > BETWEEN_SAMPLES * record.step + CLEAR * deviation
 
 
 def not_seen(evidence: Mapping[str, float]) -> ExcitationError | None:

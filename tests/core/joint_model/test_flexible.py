@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from tests.core.estimate.flexible_arm import ONE
+from tests.core.estimate.flexible_arm import recorded as moved_in_engine
 from tests.core.joint_model.plant import Plant, Run, log_of, recorded, robot_of
 from veritorque.core.document.joint_model import joint_document
 from veritorque.core.errors import ExcitationError, OptionError, SolverError
@@ -60,6 +62,16 @@ def test_a_torque_that_is_late_or_early_in_the_log_is_measured_and_warned_of(pla
         late, deviation = found.models[-1].late
         assert late == pytest.approx(samples / run.rate, abs=0.4 / run.rate + 3.0 * deviation)
         assert any("it acted" in doubt for doubt in doubts) == (samples != 0)
+
+
+def test_a_torque_that_no_controller_holds_between_samples_is_no_late_one():
+    run = moved_in_engine(ONE, highest_hz=18.0, seconds=10.0)
+    for every in (1, 4):
+        log = log_from_arrays("motor", run.time[::every], run.position[::every], run.torque[::every])
+        found = identify_joint(ONE.robot, log, JointOptions(1, "flexible"), no_progress)
+        assert found.models[-1].late[0] == pytest.approx(0.5 / log.rate_hz, rel=0.1)
+        doubts = joint_document(found, version="", options={})["doubts"]
+        assert not any("it acted" in doubt for doubt in doubts)
 
 
 MODES = [8.0, 12.0, 25.0, 40.0]
