@@ -12,7 +12,9 @@ from ..estimate.methods.auto import AUTO
 from ..estimate.methods.kalman import KalmanFilter
 from ..estimate.methods.method import PERIODS, Estimator
 from ..estimate.methods.registry import ESTIMATORS
+from ..estimate.options import FLEXIBLE
 from ..estimate.problem import Problem
+from ..fields import shown
 from ..simulation.mechanism import mechanism_of
 from ..simulation.multistep import MultiStep, predict_motion
 from .identify import fit, judge, no_progress
@@ -89,6 +91,17 @@ def read_options(options: Mapping[str, object]) -> IdentifyOptions:
         If an option is not valid, or acts on none of the estimators.
     """
     names = read_estimators(options)
+    if options.get("flexible_joints"):
+        raise OptionError(
+            "a comparison fits one model by all estimators, and flexible joints make another one",
+            evidence={
+                "pointer": "/options/flexible_joints",
+                "given": shown(options["flexible_joints"]),
+                "estimator": FLEXIBLE,
+            },
+            remedy=f"leave flexible_joints out here; send a job identify with flexible_joints and estimator"
+            f" {FLEXIBLE}, and compare the errors on held-out data",
+        )
     for name in names:
         parse_options(options_for(options, name))
     for key, acts in _ACTS.items():

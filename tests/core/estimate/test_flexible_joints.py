@@ -1,6 +1,7 @@
 """Springs of joints, found in the logs of arms that another engine simulates, or refused."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -13,6 +14,7 @@ from veritorque.core.document.model.reference import reference_from_document
 from veritorque.core.errors import ExcitationError, OptionError
 from veritorque.core.identification.options import parse_options
 from veritorque.core.identification.result import Identification
+from veritorque.core.identification.spring_evidence import refuse_hidden
 from veritorque.core.study import IdentifyRequest, identify, identify_in_full
 
 FOUND = 0.01
@@ -69,7 +71,51 @@ def test_a_rigid_arm_that_is_called_flexible_is_given_no_stiffness() -> None:
     # In this band a light link behind a soft spring fits the log with a deviation of 0.3 %.
     with pytest.raises(ExcitationError, match="explains the torque no better than a rigid one") as refused:
         identified(ONE.with_mode(np.inf), (1,), 30.0, filter={"cutoff_hz": 40.0})
-    assert "joint_1" in refused.value.evidence
+    assert set(refused.value.evidence["joint_1"]) >= {"natural_hz", "stiffness_deviation_percent"}
+    assert "joint 1 is flexible: a flexible joint explains" in refused.value.cause
+
+
+@pytest.mark.parametrize("cutoff_hz", [3.0, 6.0])
+def test_a_filter_that_hides_a_spring_is_named_with_the_mode_and_the_cut_off_that_shows_it(
+    cutoff_hz: float,
+) -> None:
+    with pytest.raises(ExcitationError, match=rf"filter\.cutoff_hz is {cutoff_hz:g} Hz") as refused:
+        identified(ONE.with_mode(MODE), (1,), filter={"cutoff_hz": cutoff_hz})
+    evidence = refused.value.evidence
+    assert evidence["pointer"] == "/options/filter/cutoff_hz"
+    assert evidence["mode_hz"] == pytest.approx(MODE, rel=0.05)
+    assert all(np.isfinite(list(own.values())).all() for own in evidence.values() if isinstance(own, dict))
+    needed = float(refused.value.remedy.split()[-2])
+    found = identified(ONE.with_mode(MODE), (1,), filter={"cutoff_hz": needed})
+    assert values(found, "stiffness") == pytest.approx(ONE.with_mode(MODE).stiffness, rel=FOUND)
+
+
+def test_a_joint_that_stands_is_refused_as_flexible_before_anything_is_fitted() -> None:
+    moved = record(THREE.with_mode(MODE), 1.5 * MODE)
+    still = replace(moved, position=moved.position * [1.0, 1.0, 0.0])
+    asked = {"estimator": "didim", "flexible_joints": [1, 2, 3]}
+    stages: list[str] = []
+    with pytest.raises(ExcitationError, match="joint 3 is flexible: it stands") as refused:
+        identify_in_full(
+            IdentifyRequest(THREE.robot, (still.log(1),), asked), lambda stage, _: stages.append(stage)
+        )
+    assert refused.value.evidence["joints"] == [3]
+    assert not {"observe", "estimate"} & set(stages)
+
+
+@pytest.mark.parametrize(
+    ("reasons", "said"),
+    [
+        ({1: [], 2: ["a", "b"]}, "that joint 2 is flexible: a and b"),
+        ({1: ["a"], 3: ["b"]}, "that joints 1 and 3 are flexible: joint 1: a; joint 3: b"),
+    ],
+)
+def test_a_refusal_names_each_joint_once_where_there_is_one(
+    reasons: Mapping[int, list[str]], said: str
+) -> None:
+    with pytest.raises(ExcitationError) as refused:
+        refuse_hidden({joint: {"natural_hz": 50.0} for joint in reasons}, reasons)
+    assert refused.value.cause.endswith(said)
 
 
 def test_a_spring_is_refused_whose_mode_carries_hardly_any_torque() -> None:
@@ -109,6 +155,7 @@ def test_joints_that_cannot_be_flexible_are_refused_with_a_remedy() -> None:
         {"flexible_joints": [1], "estimator": "didim", "simulation": {"from": "controller"}},
         {"flexible_joints": [2, 1], "estimator": "didim"},
         {"flexible_joints": [0], "estimator": "didim"},
+        {"flexible_joints": [1.5], "estimator": "didim"},
     ],
 )
 def test_flexible_joints_are_asked_of_didim_by_replay_in_rising_order(options: Mapping[str, object]) -> None:
