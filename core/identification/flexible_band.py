@@ -81,15 +81,29 @@ def _found(problem: Problem, options: FilterOptions) -> FlexibleStart:
 
 
 def _within(problem: Problem, options: FilterOptions, cutoff_hz: float) -> FlexibleStart:
-    """Begin with the filter that was asked for; where another one shows the springs, say which."""
+    """Begin with the filter that was asked for; where another one shows the springs, say which.
+
+    A filter below the mode is refused: the spring that explains what it passes may be several times too soft.
+    """
     try:
-        return _checked(begin(problem))
+        begun = _checked(begin(problem))
+        _check_passes(begun, cutoff_hz)
     except ExcitationError as hidden:
         try:
             shown = _found(problem, replace(options, cutoff_hz=None))
         except (ExcitationError, OptionError):
             raise hidden from None
         raise misfiltered(hidden, cutoff_hz, float(np.max(_modes(shown)[1]))) from None
+    return begun
+
+
+def _check_passes(begun: FlexibleStart, cutoff_hz: float) -> None:
+    """Refuse a filter that does not pass the modes."""
+    joints, high = begun.transmission.joints + 1, _modes(begun)[1]
+    hidden = [int(joint) for joint, mode in zip(joints, high, strict=True) if mode > cutoff_hz]
+    if hidden:
+        evidence = {"joints": hidden, "natural_hz": high[high > cutoff_hz].tolist(), "cutoff_hz": cutoff_hz}
+        raise unseen(hidden, evidence, "the filter does not pass the mode")
 
 
 def _followed(problem: Problem, options: FilterOptions, band: float) -> FlexibleStart:

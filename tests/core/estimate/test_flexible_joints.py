@@ -75,19 +75,25 @@ def test_a_rigid_arm_that_is_called_flexible_is_given_no_stiffness() -> None:
     assert "joint 1 is flexible: a flexible joint explains" in refused.value.cause
 
 
-@pytest.mark.parametrize("cutoff_hz", [3.0, 6.0])
+# At 1.5 Hz the start leads nowhere, at 5 Hz to a spring that is seven times too soft, of three joints to a link
+# without inertia.
+@pytest.mark.parametrize(
+    ("arm", "mode", "cutoff_hz"), [(ONE, 40.0, 1.5), (ONE, 40.0, 5.0), (THREE, MODE, 5.0)]
+)
 def test_a_filter_that_hides_a_spring_is_named_with_the_mode_and_the_cut_off_that_shows_it(
-    cutoff_hz: float,
+    arm: FlexibleArm, mode: float, cutoff_hz: float
 ) -> None:
+    arm, joints = arm.with_mode(mode), range(1, arm.joints + 1)
     with pytest.raises(ExcitationError, match=rf"filter\.cutoff_hz is {cutoff_hz:g} Hz") as refused:
-        identified(ONE.with_mode(MODE), (1,), filter={"cutoff_hz": cutoff_hz})
+        identified(arm, joints, 1.5 * mode, filter={"cutoff_hz": cutoff_hz})
     evidence = refused.value.evidence
     assert evidence["pointer"] == "/options/filter/cutoff_hz"
-    assert evidence["mode_hz"] == pytest.approx(MODE, rel=0.05)
+    assert evidence["mode_hz"] == pytest.approx(mode, rel=0.01)
     assert all(np.isfinite(list(own.values())).all() for own in evidence.values() if isinstance(own, dict))
     needed = float(refused.value.remedy.split()[-2])
-    found = identified(ONE.with_mode(MODE), (1,), filter={"cutoff_hz": needed})
-    assert values(found, "stiffness") == pytest.approx(ONE.with_mode(MODE).stiffness, rel=FOUND)
+    if arm.joints == 1:
+        found = identified(arm, joints, 1.5 * mode, filter={"cutoff_hz": needed})
+        assert values(found, "stiffness") == pytest.approx(arm.stiffness, rel=FOUND)
 
 
 def test_a_joint_that_stands_is_refused_as_flexible_before_anything_is_fitted() -> None:
