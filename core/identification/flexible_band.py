@@ -29,8 +29,8 @@ SETTLED: Final = 0.15
 """Relative change of the band below which it follows the modes."""
 BANDS: Final = (1.0, 2.5, 6.0)
 """Bands that are begun with, as multiples of the motion's: near the mode a spring shows most clearly."""
-ROUNDS: Final = 5
-"""Bands at most: from a tenth of the mode each round finds more of it."""
+ROUNDS: Final = 6
+"""Bands at most from each beginning: from a tenth of the mode each round finds more of it."""
 
 
 def with_springs(problem: Problem, joints: tuple[int, ...], options: FilterOptions) -> FlexibleStart:
@@ -71,10 +71,12 @@ def check_moved(motions: Sequence[Motion], joints: tuple[int, ...]) -> None:
 def _found(problem: Problem, options: FilterOptions) -> FlexibleStart:
     """Begin with the first of some bands that shows all springs."""
     band = max(motion.recipe.motion_band_hz for motion in problem.motions)
-    failures = list[VeritorqueError]()
+    failures, tried = list[VeritorqueError](), list[float]()
     for share in BANDS:
         try:
-            return _checked(_followed(problem, options, share * band))
+            begun = _followed(problem, options, share * band, tried)
+            if begun is not None:
+                return _checked(begun)
         except (ExcitationError, OptionError) as error:
             failures.append(error)
     raise failures[0]
@@ -106,16 +108,26 @@ def _check_passes(begun: FlexibleStart, cutoff_hz: float) -> None:
         raise unseen(hidden, evidence, "the filter does not pass the mode")
 
 
-def _followed(problem: Problem, options: FilterOptions, band: float) -> FlexibleStart:
-    """Begin with a band, and let it follow the modes that are found, but not below the motion."""
+def _followed(
+    problem: Problem, options: FilterOptions, band: float, tried: list[float]
+) -> FlexibleStart | None:
+    """Begin with a band, and let it follow the modes that are found, but not below the motion.
+
+    None where it comes to a band that was tried: what is found depends on the band alone.
+    """
     least = max(motion.recipe.motion_band_hz for motion in problem.motions)
-    begun = begin(replace(problem, motions=_conditioned(problem, options, band)))
+    most = HIGHEST_SHARE * max(motion.log.rate_hz for motion in problem.motions)
+    before, begun = tuple(tried), None
     for _ in range(ROUNDS):
-        wanted = max(BAND_OVER_MODE * float(np.max(_modes(begun)[1])), least)
-        if not abs(wanted - band) > SETTLED * band:
-            break
-        band = wanted
+        if any(abs(band - other) <= SETTLED * other for other in before):
+            return None
+        tried.append(band)
         begun = begin(replace(problem, motions=_conditioned(problem, options, band)))
+        wanted = min(max(BAND_OVER_MODE * float(np.max(_modes(begun)[1])), least), most)
+        if abs(wanted - band) <= SETTLED * band:
+            return begun
+        band = wanted
+    tried.pop()  # it has not settled, and another beginning may go on from there
     return begun
 
 
