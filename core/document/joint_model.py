@@ -206,7 +206,7 @@ def _doubts(found: JointModel) -> list[str]:
 def _lateness(found: JointModel, answer: FoundModel) -> str:
     """Say how late the torque is by the model that is the answer, and what else looks alike.
 
-    A spring in a rigid model looks like a delay, and the flexible model's step along a long delay falls short.
+    A spring in a rigid model looks like a delay; the flexible model's step along a long delay falls short.
     """
     way = "after" if answer.late[0] > 0.0 else "before"
     refused = found.flexible
@@ -220,12 +220,12 @@ def _lateness(found: JointModel, answer: FoundModel) -> str:
         )
     else:
         told = (
-            f"by about {_delay(answer)} {way} it acted, if the joint is rigid: a spring in a rigid model looks"
-            " alike. Move the torque by that time"
+            f"by about {_delay(answer)} {way} it acted, if the joint is rigid: a spring in a rigid model "
+            "looks alike. Move the torque by that time"
         )
     return (
-        f"The torque stands in the log {told}, or log both at the same instants. It biases inertias, frictions "
-        "and stiffness by more than their deviations. A filter of the torque looks alike."
+        f"The torque stands in the log {told}, or log both at the same instants. It biases inertias, "
+        "frictions and stiffness by more than their deviations. A filter of the torque looks alike."
     )
 
 

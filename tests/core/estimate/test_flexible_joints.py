@@ -75,8 +75,8 @@ def test_a_rigid_arm_that_is_called_flexible_is_given_no_stiffness() -> None:
     assert "joint 1 is flexible: a flexible joint explains" in refused.value.cause
 
 
-# At 1.5 Hz the start leads nowhere, at 5 Hz to a spring that is seven times too soft, of three joints to a link
-# without inertia.
+# At 1.5 Hz the start leads nowhere, at 5 Hz to a spring that is seven times too soft, of three joints to a
+# link without inertia.
 @pytest.mark.parametrize(
     ("arm", "mode", "cutoff_hz"), [(ONE, 40.0, 1.5), (ONE, 40.0, 5.0), (THREE, MODE, 5.0)]
 )
