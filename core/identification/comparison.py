@@ -91,6 +91,19 @@ def read_options(options: Mapping[str, object]) -> IdentifyOptions:
         If an option is not valid, or acts on none of the estimators.
     """
     names = read_estimators(options)
+    _check_rigid(options)
+    for name in names:
+        parse_options(options_for(options, name))
+    for key, acts in _ACTS.items():
+        if not any(acts(ESTIMATORS[name]) for name in names):
+            parse_options({"estimator": names[0], **_only(options, key)})
+    if _other_periods(options) and not any(PERIODS in ESTIMATORS[name].sources for name in names):
+        parse_options({"estimator": names[0], **_only(options, "simulation.from")})
+    return parse_options(options_for(options, BEGINNING))
+
+
+def _check_rigid(options: Mapping[str, object]) -> None:
+    """Refuse flexible joints: parameters of two models are no table, and name the job that takes them."""
     if options.get("flexible_joints"):
         raise OptionError(
             "a comparison fits one model by all estimators, and flexible joints make another one",
@@ -102,14 +115,6 @@ def read_options(options: Mapping[str, object]) -> IdentifyOptions:
             remedy=f"leave flexible_joints out here; send a job identify with flexible_joints and estimator"
             f" {FLEXIBLE}, and compare the errors on held-out data",
         )
-    for name in names:
-        parse_options(options_for(options, name))
-    for key, acts in _ACTS.items():
-        if not any(acts(ESTIMATORS[name]) for name in names):
-            parse_options({"estimator": names[0], **_only(options, key)})
-    if _other_periods(options) and not any(PERIODS in ESTIMATORS[name].sources for name in names):
-        parse_options({"estimator": names[0], **_only(options, "simulation.from")})
-    return parse_options(options_for(options, BEGINNING))
 
 
 def options_for(options: Mapping[str, object], name: str) -> dict[str, object]:

@@ -66,14 +66,17 @@ def refuse_hidden(
     ExcitationError
         If there is a reason for any joint (from 1).
     """
-    hidden = [joint for joint, own in reasons.items() if own]
-    if not hidden:
+    told = {joint: " and ".join(own) for joint, own in reasons.items() if own}
+    if not told:
         return
-    told = {joint: " and ".join(reasons[joint]) for joint in hidden}
-    why = "; ".join(told.values() if len(hidden) == 1 else (f"joint {at}: {own}" for at, own in told.items()))
-    error = unseen(hidden, {f"joint_{joint}": dict(evidence[joint]) for joint in hidden}, why)
-    mode = max(evidence[joint].get("natural_hz", 0.0) for joint in hidden)
+    error = unseen(list(told), {f"joint_{joint}": dict(evidence[joint]) for joint in told}, _joined(told))
+    mode = max(evidence[joint].get("natural_hz", 0.0) for joint in told)
     raise error if cutoff_hz is None or mode <= cutoff_hz else misfiltered(error, cutoff_hz, mode)
+
+
+def _joined(told: Mapping[int, str]) -> str:
+    """Say what hides which joint; of one joint, which is named already, what hides it."""
+    return "; ".join(told.values() if len(told) == 1 else (f"joint {at}: {own}" for at, own in told.items()))
 
 
 def unseen(joints: Sequence[int], evidence: Mapping[str, object], why: str) -> ExcitationError:

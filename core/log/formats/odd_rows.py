@@ -210,9 +210,7 @@ class _Rows:
 def _ends_of_rows(block: bytes, table: TextHeader) -> Indices | None:
     """Give where each line ends, if all have as many separators as a row and none is quoted or a comment."""
     marks = table.width - 1
-    if table.delimiter == BLANKS or not marks or b'"' in block or _has_other_ends(block):
-        return None
-    if any(mark in block for mark in COMMENT_MARKS) and _COMMENT.search(block):
+    if table.delimiter == BLANKS or not marks or _is_odd(block):
         return None
     text = np.frombuffer(block, dtype=np.uint8)
     ends = np.flatnonzero(text == ord("\n"))
@@ -224,9 +222,12 @@ def _ends_of_rows(block: bytes, table: TextHeader) -> Indices | None:
     return ends if apart else None
 
 
-def _has_other_ends(block: bytes) -> bool:
-    """Tell whether some line ends in a carriage return alone."""
-    return b"\r" in block and block.count(b"\r") != block.count(b"\r\n")
+def _is_odd(block: bytes) -> bool:
+    """Tell whether a line is quoted or a comment, or ends in a carriage return alone."""
+    if b'"' in block or (b"\r" in block and block.count(b"\r") != block.count(b"\r\n")):
+        return True
+    commented = any(mark in block for mark in COMMENT_MARKS)
+    return commented and _COMMENT.search(block) is not None
 
 
 def _is_whole(line: bytes, table: TextHeader) -> bool:

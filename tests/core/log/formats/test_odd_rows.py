@@ -63,16 +63,17 @@ def test_a_comment_between_rows_is_left_out_whatever_separators_it_holds(mark, t
     assert open_delimited(commented).notes == ("1 comment between the rows left out (line 122)",)
 
 
-@pytest.mark.parametrize("rows", [400, 40_000])
-def test_rows_of_another_length_are_counted_of_the_rows_that_were_read(rows, tmp_path):
+@pytest.mark.parametrize(("regular", "odd", "whole"), [(400, 8, True), (30, 40_000, False)])
+def test_rows_of_another_length_are_counted_of_the_rows_that_were_read(regular, odd, whole, tmp_path):
     path = tmp_path / "log.csv"
-    text = ["0.12,0.25,0.31,0.43,0.55"] * rows
-    path.write_text("\n".join(["time,q_1,q_2,tau_1", *["0.01,1,2,3"] * 30, *text]) + "\n")
+    rows = [*["0.01,1,2,3"] * (regular // 2), *["0.12,0.25,0.31,0.43,0.55"] * odd]
+    path.write_text("\n".join(["time,q_1,q_2,tau_1", *rows, *["0.01,1,2,3"] * (regular // 2)]) + "\n")
     with pytest.raises(LogError, match="rows are of another length") as refused:
         open_delimited(path)
     seen = refused.value.evidence
-    if "rows" in seen:
-        assert (seen["rows_of_another_length"], seen["rows"]) == (rows, rows + 30)
+    if whole:
+        assert (seen["rows_of_another_length"], seen["rows"]) == (odd, regular + odd)
+        assert f"{odd} of {regular + odd} rows" in refused.value.cause
     else:
-        assert seen["rows_of_another_length"] <= seen["rows_counted"] < rows + 30
+        assert seen["rows_of_another_length"] <= seen["rows_counted"] < regular + odd
         assert f"of the first {seen['rows_counted']} rows" in refused.value.cause
