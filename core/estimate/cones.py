@@ -85,7 +85,7 @@ def add_links(
         rows[:, columns] = -svec_rows(weights) * prior.scale[columns]
         if link.density_bounded:
             rows[:, first + AUXILIARY * place] = density_column(prior, link.columns)
-            _add_power(cones, first + AUXILIARY * place, columns[9])
+            add_power(cones, first + AUXILIARY * place, columns[9])
         cones.add(clarabel.PSDTriangleConeT(4), rows, -margin * SVEC_IDENTITY)
         cones.links.append(cones.rows[-1])
         if link.extent is not None:
@@ -94,7 +94,7 @@ def add_links(
             cones.add(clarabel.NonnegativeConeT(1), size, np.zeros(1))
 
 
-def _add_power(cones: Cones, first: int, mass: int) -> None:
+def add_power(cones: Cones, first: int, mass: int) -> None:
     """Add u >= m^(5/3), u the variable `first`, by m^2 <= u a, a^2 <= b and b^2 <= a m.
 
     Of logarithms these are 2 m <= u + a, 2 a <= b and 2 b <= a + m: so a <= m / 3, and 5 m / 3 <= u.

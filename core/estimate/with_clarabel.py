@@ -115,7 +115,7 @@ def _first_solved(statement: _Statement, *, coarse: bool) -> tuple[Any, Vector]:
         solver = clarabel.DefaultSolver(
             sparse.diags(statement.quadratic * unit**2, format="csc"),
             statement.linear * unit,
-            statement.rows.multiply(unit).tocsc() if normalised else statement.rows,
+            statement.rows @ sparse.diags(unit, format="csc") if normalised else statement.rows,
             statement.right,
             statement.kinds,
             _settings(tolerance, step, patience),
@@ -138,5 +138,3 @@ def _settings(tolerance: float, step: float, patience: int) -> object:
     settings.max_iter = patience
     settings.max_threads = 1
     return settings
-
-
