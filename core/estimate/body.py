@@ -10,7 +10,7 @@ import numpy as np
 from scipy import sparse
 
 from ..arrays import LinkParameters, SquareMatrix
-from .with_clarabel import svec_rows
+from .cones import svec_rows
 
 LARGEST_DEVIATION = 100.0
 """In SI units: what is known worse is not known."""

@@ -15,9 +15,9 @@ from ..arrays import BaseParameters, Parameters
 from ..dynamics.model import DynamicModel
 from ..reduction.base import BaseModel
 from ..robot.inertia import pseudo_inertia
+from .cones import AUXILIARY, SVEC_IDENTITY, Cones, add_links
 from .constraints import Bounds, Prior, congruence, link_columns, lower_bounds
 from .plausibility import link_bounds
-from .with_clarabel import AUXILIARY, SVEC_IDENTITY, Cones, add_links
 
 _CAP = 1.0
 
