@@ -13,7 +13,7 @@ from veritorque.app.terminal.output.comparison import print_comparison
 from veritorque.core.errors import OptionError
 from veritorque.core.estimator_comparison import compare_estimators
 from veritorque.core.export.comparison import comparison_csv, comparison_latex
-from veritorque.core.identification.comparison import ALL, read_estimators, read_options
+from veritorque.core.identification.comparison_options import ALL, read_estimators, read_options
 from veritorque.core.identification.options import parse_options
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.description import robot_from_description
