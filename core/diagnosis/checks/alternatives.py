@@ -177,7 +177,7 @@ def compare_member(state: SearchState, index: int, own: Hypothesis) -> Compariso
         if keeps_beside(fitter, without, own, other, ratio) or is_masked_by_last(fitter, own, other):
             continue
         why = _objection(fitter, without, trial)
-        settled = trial if why else _at_its_own_point(state, trial)
+        settled = _at_its_own_point(state, trial, why)
         ratio, behind = likelihood_ratio(without, settled), own_gain - bic_gain(without, settled)
         if not why:
             margin = min(margin, behind)
@@ -206,13 +206,13 @@ def _trials(state: SearchState, without: Hypothesis) -> list[Hypothesis]:
     return sorted(whole, key=lambda trial: -bic_gain(without, trial))
 
 
-def _at_its_own_point(state: SearchState, trial: Hypothesis) -> Hypothesis:
-    """Fit an alternative where it is linearised at itself, as the member is, unless it is worse there.
+def _at_its_own_point(state: SearchState, trial: Hypothesis, why: str) -> Hypothesis:
+    """Fit an alternative that can be one where it is linearised at itself, unless it is worse there.
 
     Where robot or signals are wrong, columns are derivatives of the model's torque. Those of a zero that is
     off by some degrees differ at a model with another cause in its place. A further term has its own columns.
     """
-    if trial.members[-1].cause.cure == "term":
+    if why or trial.members[-1].cause.cure == "term":
         return trial
     moved = state.linearised_at(trial).chosen
     return max(trial, moved if moved.admissible else trial, key=lambda one: one.fit.log_likelihood)

@@ -17,8 +17,6 @@ from ..search.hypothesis import Hypothesis
 from ..search.likelihood_ratio import wald_statistic
 from ..thresholds.checks import BLOCK_SCATTER
 
-_LEAST = 1e-300
-
 
 def block_log_p(fitter: HypothesisFitter, chosen: Hypothesis, index: int, statistic: float) -> float:
     """Give the log of a member's p-value by its scatter between blocks, corrected for all that was scanned.
@@ -34,12 +32,14 @@ def block_log_p(fitter: HypothesisFitter, chosen: Hypothesis, index: int, statis
     freedom = blocks - width
     if freedom < 1:
         return 0.0
-    scale = np.sqrt(np.maximum(np.diag(model), _LEAST))
+    scale = np.sqrt(np.maximum(np.diag(model), np.finfo(float).tiny))
     scatter = blocks / (blocks - 1) * (changes / scale).T @ (changes / scale)
     over_noise = float(np.trace(np.linalg.solve(model / np.outer(scale, scale), scatter)))
     least = max(min(statistic, wald_statistic(chosen, index)), 0.0)
-    chance = float(fdtrc(width, freedom, least / max(over_noise, _LEAST) * freedom / (blocks - 1)))
-    return float(min(np.log(max(chance, _LEAST) * member.trials * fitter.kinds), 0.0))
+    chance = float(
+        fdtrc(width, freedom, least / max(over_noise, np.finfo(float).tiny) * freedom / (blocks - 1))
+    )
+    return float(min(np.log(max(chance, np.finfo(float).tiny)) + np.log(member.trials * fitter.kinds), 0.0))
 
 
 def _changes(fitter: HypothesisFitter, chosen: Hypothesis) -> Matrix:

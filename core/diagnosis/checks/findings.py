@@ -51,11 +51,8 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
     evidence = predictors(own.statistic, margin, measured)
     at = Setting(dataset, fitter.operating_point, member.site, member.scalars)
     scattered = _between_blocks(fitter, chosen, index, own)
-    doubtful = (
-        own.margin < 0.0
-        or not (cause.represented(at, solved) and has_known_size(cause, solved))
-        or any(one.value > float(np.log10(BLOCK_SCATTER.level)) for one in scattered)
-    )
+    represented = cause.represented(at, solved) and has_known_size(cause, solved)
+    doubtful = own.margin < 0.0 or not represented or _scatters(scattered)
     return Finding(
         cause=cause.id,
         title=cause.title,
@@ -117,6 +114,10 @@ def _between_blocks(
             log_p / float(np.log(10.0)),
         ),
     )
+
+
+def _scatters(between_blocks: tuple[Evidence, ...]) -> bool:
+    return any(one.value > float(np.log10(BLOCK_SCATTER.level)) for one in between_blocks)
 
 
 def _on_holdout(
