@@ -27,7 +27,7 @@ def block_log_p(fitter: HypothesisFitter, chosen: Hypothesis, index: int, statis
         Its likelihood ratio statistic; its Wald statistic counts where that is smaller.
     """
     member, model = chosen.members[index], chosen.covariance(index)
-    changes = _changes(fitter, chosen)[:, chosen.columns_of(index)]
+    changes = _changes(fitter, chosen, index)
     blocks, width = changes.shape
     freedom = blocks - width
     if freedom < 1:
@@ -42,12 +42,24 @@ def block_log_p(fitter: HypothesisFitter, chosen: Hypothesis, index: int, statis
     return float(min(np.log(max(chance, np.finfo(float).tiny)) + np.log(member.trials * fitter.kinds), 0.0))
 
 
-def _changes(fitter: HypothesisFitter, chosen: Hypothesis) -> Matrix:
-    """Give by how much each block's rows pull every coefficient, blocks x coefficients."""
+def _changes(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> Matrix:
+    """Give how much each block's rows alone change a member's coefficients, blocks x coefficients.
+
+    What the error of its columns, which are of first order, may do to the block's share is no scatter.
+    """
+    own, tiny = chosen.columns_of(index), np.finfo(float).tiny
+    inverse = chosen.fit.covariance[:, own]
+    weights = inverse / np.sqrt(np.maximum(np.diag(inverse[own]), tiny))
     block = row_blocks(fitter.dataset, BLOCK_SCATTER.blocks)
-    pulls = np.zeros((int(block.max()) + 1, len(chosen.fit.values)))
+    change = np.zeros((int(block.max()) + 1, inverse.shape[1]))
+    share = np.zeros(len(change))
     for rows, part, left in zip(fitter.rows.fitted, chosen.fit.joints, chosen.fit.left, strict=True):
         numbers, first = np.unique(block[rows.rows], return_index=True)
         if len(numbers):
-            pulls[np.ix_(numbers, part.acting)] += np.add.reduceat(part.columns * left[:, None], first)
-    return np.asarray(chosen.fit.solve(pulls[pulls.any(axis=1)].T).T)
+            change[numbers] += np.add.reduceat(part.columns @ inverse[part.acting] * left[:, None], first)
+            beside = part.nuisance.without_nuisance(part.columns @ weights[part.acting])
+            share[numbers] += np.add.reduceat(np.sum(beside**2, axis=1), first)
+    seen = np.unique(np.concatenate([block[rows.rows] for rows in fitter.rows.fitted]))
+    change, share = change[seen], share[seen, None] / max(float(share.sum()), tiny)
+    inexact = chosen.members[index].cause.traits.linearisation_error * np.abs(chosen.fit.values[own])
+    return np.asarray(np.sign(change) * np.maximum(np.abs(change) - inexact * share, 0.0))
