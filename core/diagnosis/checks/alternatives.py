@@ -5,7 +5,7 @@ estimated again. Two hypotheses whose criteria differ by less than six are undec
 Source: Burnham & Anderson, Model Selection (2002), ch. 2.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import starmap
 
@@ -46,7 +46,8 @@ class Comparison:
     refuted: tuple[Alternative, ...]
     without: Hypothesis
     over_unnamed: float = np.inf
-    """The same over the best unnamed pattern on its joints; infinite where none explains anything."""
+    """The same over the best unnamed pattern on its joints, or the best unnamed event; infinite where none
+    explains anything."""
 
 
 def compare_alternatives(found: SearchState) -> tuple[SearchState, list[Comparison]]:
@@ -92,7 +93,8 @@ def _comparison(
     state: SearchState, index: int, refitted: Hypothesis, unnamed: tuple[Candidate, ...]
 ) -> Comparison:
     own = compare_member(state, index, refitted)
-    return replace(own, over_unnamed=_over_unnamed(state.fitter, own, unnamed))
+    pattern = _over_unnamed(state.fitter, own, unnamed)
+    return replace(own, over_unnamed=min(own.over_unnamed, pattern))
 
 
 def _is_inadmissible(state: SearchState, index: int) -> bool:
@@ -172,9 +174,10 @@ def compare_member(state: SearchState, index: int, own: Hypothesis) -> Compariso
     member, without = chosen.members[index], fitter.fit_without_each(chosen)[index]
     ambiguous, refuted, margin = [], [], np.inf
     own_gain, own_ratio = bic_gain(without, own), likelihood_ratio(without, own)
-    for trial in _trials(state, without):
+    trials = _not_left(fitter, own, _trials(state, without))
+    for trial in trials:
         other, ratio = trial.members[-1], likelihood_ratio(without, trial)
-        if keeps_beside(fitter, without, own, other, ratio) or is_masked_by_last(fitter, own, other):
+        if keeps_beside(fitter, without, own, other, ratio):
             continue
         behind = own_gain - bic_gain(without, trial)
         why = _objection(fitter, without, trial)
@@ -187,8 +190,46 @@ def compare_member(state: SearchState, index: int, own: Hypothesis) -> Compariso
         elif ratio > ALTERNATIVES.least_ratio_listed * own_ratio:
             refuted.append(_refuted_alternative(other, ratio, own_ratio, why))
     return Comparison(
-        index, member, own_ratio, own_gain, float(margin), tuple(ambiguous), tuple(refuted), without
+        index,
+        member,
+        own_ratio,
+        own_gain,
+        float(margin),
+        tuple(ambiguous),
+        tuple(refuted),
+        without,
+        _over_events(fitter, without, own, trials),
     )
+
+
+def _not_left(fitter: HypothesisFitter, own: Hypothesis, trials: list[Hypothesis]) -> list[Hypothesis]:
+    """Give the trials whose last member is not what the member that is judged leaves."""
+    return [trial for trial in trials if not is_masked_by_last(fitter, own, trial.members[-1])]
+
+
+def _over_events(
+    fitter: HypothesisFitter, without: Hypothesis, own: Hypothesis, trials: Sequence[Hypothesis]
+) -> float:
+    """Give a lasting member's BIC difference less that of the best event in its place that is no contact.
+
+    Its span and wrench fit, but no listed cause can be it: something else happened then. Where it explains
+    much more than the member, the member's evidence is from that span, and not from all the log. Infinite
+    where there is none, or each explains as much beside the other.
+    """
+    if own.members[-1].cause.traits.transient:
+        return np.inf
+    events = [trial for trial in trials if trial.members[-1].cause.traits.transient and not trial.admissible]
+    competing = [trial for trial in events if _compete(fitter, without, own, trial)]
+    most = max((bic_gain(without, trial) for trial in competing), default=-np.inf)
+    return float(bic_gain(without, own) - most)
+
+
+def _compete(fitter: HypothesisFitter, without: Hypothesis, own: Hypothesis, trial: Hypothesis) -> bool:
+    """Tell whether one of the last members of two hypotheses explains less beside the other."""
+    if not keeps_beside(fitter, without, own, trial.members[-1], likelihood_ratio(without, trial)):
+        return True
+    beside = fitter.fit((*trial.members, own.members[-1]), trial)
+    return likelihood_ratio(trial, beside) < MASKING.kept * likelihood_ratio(without, own)
 
 
 def _trials(state: SearchState, without: Hypothesis) -> list[Hypothesis]:
