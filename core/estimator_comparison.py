@@ -8,7 +8,8 @@ from dataclasses import replace
 from .document.conflicts import conflict_rows, with_conflicts
 from .document.estimator_comparison import comparison_document
 from .document.version import product_version
-from .identification.comparison import fit_by, options_for, read_estimators, read_options
+from .identification.comparison import fit_by
+from .identification.comparison_options import options_for, read_estimators, read_options
 from .identification.identify import Progress, no_progress
 from .identification.options import BEGINNING
 from .numerics.threads import on_one_thread

@@ -204,6 +204,8 @@ class Fields:
         return np.array([self._finite(name, item) for item in self._list(name, value, (count, count))])
 
     def _whole(self, name: str, value: object, bounds: tuple[float, float]) -> int:
+        if isinstance(value, float) and value.is_integer():
+            value = int(value)  # JSON has one kind of number, and some programs write 1 as 1.0
         if isinstance(value, bool) or not isinstance(value, int):
             self.refuse(name, "is not a whole number")
         if not bounds[0] <= value <= bounds[1]:

@@ -29,6 +29,7 @@ from .extension.reserved import reserved
 from .extension.result import Extension
 from .identification.admission import admit, known_log
 from .identification.doubts import contradictions
+from .identification.flexible_band import check_moved
 from .identification.identify import Fit, Progress, fit, judge, no_progress, refitted
 from .identification.options import REPORT, IdentifyOptions, parse_diagnose_options, parse_options
 from .identification.reference import PRIOR, Reference, reference_from_prior
@@ -108,8 +109,7 @@ def identify_with_conflicts(
     doubted
         Whether to look for conflicts even where nothing gives reason to.
     """
-    task = _Task(request, parse_options(request.options))
-    return _identify(task, progress or no_progress, doubted=doubted)
+    return _identify(_Task(request, parse_options(request.options)), progress or no_progress, doubted=doubted)
 
 
 @on_one_thread()
@@ -131,10 +131,7 @@ class _Settled:
 def _settle(
     task: _Task, tell: Progress, reference: Reference | None = None, *, doubted: bool = False
 ) -> _Settled:
-    """Fit by least squares, correct what robot and logs disagree in, then fit as asked.
-
-    A wrong unit may hide a controller that is to be simulated.
-    """
+    """Fit by least squares, correct conflicts, which may hide a controller, then fit as asked."""
     problem, logs = _prepare(task, tell, reference), task.asked.logs
     try:
         first = fit(problem, task.options.least_squares, tell)
@@ -291,6 +288,7 @@ def _prepare(task: _Task, tell: Progress, reference: Reference | None = None) ->
     model = standard_model(asked.robot, options.terms) if reference is None else reference.base.model
     admit(options, model, [known_log(log) for log in asked.logs])
     motions = condition_all(asked.logs, asked.robot, options.filter, blocks=options.validation.blocks)
+    check_moved(motions, options.estimate.flexible_joints)
     held_out = options.validation.chosen(len(motions))
     if reference is None and options.smooth_coulomb:
         model = with_smoothed_friction(

@@ -47,7 +47,7 @@ class Compare(Identify):
 
     def read_options(self, options: Document) -> "IdentifyOptions":
         """Read the options of every estimator; gives those by which all of them begin."""
-        from ...core.identification.comparison import read_options
+        from ...core.identification.comparison_options import read_options
 
         return read_options(options)
 

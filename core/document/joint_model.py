@@ -192,7 +192,7 @@ def _doubts(found: JointModel) -> list[str]:
             "The joint has dry friction and reverses often. Where it stands for an instant, friction is not "
             "modelled: inertia and frictions may be off by more than their deviations. Use longer strokes."
         )
-    doubts += [_lateness(*one.late) for one in answers[-1:] if is_late(found.record, one.late)]
+    doubts += [_lateness(found, one) for one in answers[-1:] if is_late(found.record, one.late)]
     if asked.failure is not None:
         doubts.append(f"{_sentence(asked.failure.cause)} Remedy: {asked.failure.remedy}.")
     if asked.failure is not None and found.comparison is not None:
@@ -203,14 +203,36 @@ def _doubts(found: JointModel) -> list[str]:
     return doubts
 
 
-def _lateness(seconds: float, deviation: float) -> str:
-    way = "after" if seconds > 0.0 else "before"
+def _lateness(found: JointModel, answer: FoundModel) -> str:
+    """Say how late the torque is by the model that is the answer, and what else looks alike.
+
+    A spring in a rigid model looks like a delay; the flexible model's step along a long delay falls short.
+    """
+    way = "after" if answer.late[0] > 0.0 else "before"
+    refused = found.flexible
+    if answer.order == "flexible":
+        told = f"by {_delay(answer)} or more {way} it acted. Move the torque by that time and ask again"
+    elif isinstance(refused, FoundModel):
+        told = (
+            f"{way} it acted, by a time that is not known: {_delay(answer)} by the rigid model, which holds a"
+            f" spring's part too, and {_delay(refused)} by the flexible model, which is refused. Move the "
+            "torque by a part of it and ask again"
+        )
+    else:
+        told = (
+            f"by about {_delay(answer)} {way} it acted, if the joint is rigid: a spring in a rigid model "
+            "looks alike. Move the torque by that time"
+        )
     return (
-        f"The torque stands in the log about {1e3 * abs(seconds):.2g} ms (standard deviation "
-        f"{1e3 * deviation:.1g} ms) {way} it acted. It biases inertias, frictions and stiffness by more than "
-        "their deviations. Move the torque by that time, or log both at the same instants. A filter of the "
-        "torque, or a spring in a rigid model, looks alike."
+        f"The torque stands in the log {told}, or log both at the same instants. It biases inertias, "
+        "frictions and stiffness by more than their deviations. A filter of the torque looks alike."
     )
+
+
+def _delay(model: FoundModel) -> str:
+    seconds, deviation = model.late
+    signed = abs(seconds) if model.failure is None else seconds
+    return f"{1e3 * signed:.2g} ms (standard deviation {1e3 * deviation:.1g} ms)"
 
 
 def _sentence(cause: str) -> str:

@@ -95,12 +95,12 @@ def add_links(
 
 
 def add_power(cones: Cones, first: int, mass: int) -> None:
-    """Add u >= m^(5/3), u the variable `first`, by m^2 <= u a, a^2 <= b and b^2 <= a m.
+    """Add u >= m^(5/3), u the variable `first`, by m^2 <= a b, a^2 <= m u and b^2 <= a.
 
-    Of logarithms these are 2 m <= u + a, 2 a <= b and 2 b <= a + m: so a <= m / 3, and 5 m / 3 <= u.
+    Of logarithms these are 2 m <= a + b, 2 a <= m + u, 2 b <= a: so 2 m <= 3 (m + u) / 4, and 5 m / 3 <= u.
     """
     u, a, b = range(first, first + AUXILIARY)
-    for root, left, right in ((mass, u, a), (a, b, None), (b, a, mass)):
+    for root, left, right in ((mass, a, b), (a, mass, u), (b, a, None)):
         rows, constant = np.zeros((3, cones.width)), np.zeros(3)
         rows[0, left] = rows[2, left] = -1.0
         rows[1, root] = -2.0

@@ -41,31 +41,29 @@ class FlexibleStart:
     problem: Problem
     base: BaseParameters
 
-    def transmission(self, base: BaseParameters) -> Transmission:
+    @property
+    def transmission(self) -> Transmission:
         """Give what stands between torques and links."""
-        return transmission_of(self.problem, base)
+        return _transmission(self.problem, self.base)
+
+    @property
+    def differentiated(self) -> Observation:
+        """Give the equations of a Gauss-Newton step from there."""
+        return self.problem.observed(rows=_differentiated(self.problem, self.base, damped=True))
 
     def observed(self, base: BaseParameters) -> Observation:
         """Give the equations of motors and links, by which a robot of these base parameters is judged."""
         return self.problem.observed(rows=_rows(self.problem, base))
 
-    def differentiated(self, base: BaseParameters) -> Observation:
-        """Give the equations of a Gauss-Newton step."""
-        return self.problem.observed(rows=_differentiated(self.problem, base, damped=True))
 
-
-def transmission_of(problem: Problem, base: BaseParameters) -> Transmission:
+def _transmission(problem: Problem, base: BaseParameters) -> Transmission:
     """Give what stands between torques and links."""
     joints = np.array(flexible_joints(problem.base.model))
+    names = [problem.base.model.parameters[column].name for column in problem.plan.columns]
+    values = dict(zip(names, base, strict=True))
 
     def of(symbol: str) -> Vector:
-        names = [problem.base.model.parameters[column].name for column in problem.plan.columns]
-        return np.array(
-            [
-                base[names.index(name)] if (name := f"{symbol}{joint + 1}") in names else 0.0
-                for joint in joints
-            ]
-        )
+        return np.array([values.get(f"{symbol}{joint + 1}", 0.0) for joint in joints])
 
     return Transmission(joints, of(STIFFNESS), of(DAMPING), of(ROTOR), of("FV"), of("FC"), of("OFF"))
 
@@ -100,7 +98,7 @@ def _solved(problem: Problem, seen: Observation, size: int) -> BaseParameters:
 
 def _rows(problem: Problem, base: BaseParameters) -> EliminatedRows:
     recipes = [motion.recipe for motion in problem.motions]
-    return EliminatedRows(problem.plan, transmission_of(problem, base), recipes, base)
+    return EliminatedRows(problem.plan, _transmission(problem, base), recipes, base)
 
 
 def _differentiated(problem: Problem, base: BaseParameters, *, damped: bool) -> EliminatedRows:
@@ -130,9 +128,11 @@ def _first(problem: Problem) -> BaseParameters:
     base, ratios = found[:size].copy(), found[size:].reshape(-1, 3)
     mechanism = mechanism_of(problem.base.model, standard_of(problem, base))
     inertia = np.diagonal(mechanism.mass_matrices(seen.positions), axis1=1, axis2=2).mean(axis=0)[joints]
-    if min(inertia) <= 0.0:
+    negative = [int(joint) + 1 for joint, own in zip(joints, inertia, strict=True) if own <= 0.0]
+    if negative:
         raise ExcitationError(
-            "torque and motion do not belong to masses with springs: a joint's inertia is negative",
+            "torque and motion do not belong to masses with springs: the inertia of joint"
+            f"{'s' * (len(negative) > 1)} {', '.join(map(str, negative))} would be negative",
             evidence={"joints": [int(joint) + 1 for joint in joints], "inertia": inertia.tolist()},
             remedy="check the sign of the torque and the units; let all joints speed up and slow down more",
         )

@@ -16,9 +16,49 @@ from ..document.model.identified import IdentifiedRobot
 from ..dynamics.terms.coulomb import Coulomb
 from ..dynamics.terms.coupling import GearCoupling
 from ..robot.model import Link
-from .c_source import TYPES_AND_DYNAMICS
+from .c_source import DYNAMICS
 
 WIDTH = 110
+TYPES = r"""#include <math.h>
+
+#define VERITORQUE_MOST_LINKS 64
+
+typedef struct {
+    const char *name;
+    int prismatic;         /* 0: revolute about z, 1: prismatic along z */
+    int antecedent;        /* number of the link that carries it, from 1; 0: the base */
+    int joint;             /* number of the joint that moves it, from 1 */
+    double rotation[9];    /* row by row: from this frame into the antecedent's, at zero coordinate */
+    double translation[3]; /* m, in the antecedent's frame */
+    double ratio, offset;  /* its angle (rad) or stroke (m) is ratio * q[joint - 1] + offset */
+    double inertial[10];   /* XX XY XZ YY YZ ZZ (kg m2, about the frame's origin) MX MY MZ (kg m) M (kg) */
+} veritorque_link;
+
+typedef struct {
+    const char *name;
+    double IA;    /* rotor inertia seen at the joint, kg m2 (prismatic: kg) */
+    double FV;    /* viscous friction, N m s/rad (prismatic: N s/m) */
+    double FC;    /* Coulomb friction, N m (prismatic: N) */
+    double OFF;   /* torque offset, N m (prismatic: N) */
+    double width; /* rad/s (m/s): FC acts as FC tanh(dq / width); 0: as FC sign(dq) */
+} veritorque_joint;
+
+typedef struct {
+    const char *name;
+    const double *weights;    /* per joint: the motor turns with the sum of weights[j] * q[j] */
+    double IAM, FVM, FCM, width; /* as of a joint, of that sum */
+} veritorque_motor;
+
+typedef struct {
+    const char *name;
+    double gravity[3]; /* acceleration of gravity in the base frame, m/s2 */
+    int links, joints, motors;
+    const veritorque_link *link;
+    const veritorque_joint *joint;
+    const veritorque_motor *motor;
+} veritorque_robot;
+"""
+"""What the constants of a robot are made of; two robots' headers may stand in one file."""
 
 
 def write_c_header(identified: IdentifiedRobot) -> str:
@@ -35,7 +75,10 @@ def write_c_header(identified: IdentifiedRobot) -> str:
         [
             _comment([*caveats(identified), *_calls(name)]),
             f"#ifndef {guard}\n#define {guard}\n",
-            TYPES_AND_DYNAMICS,
+            "#ifndef VERITORQUE_INVERSE_DYNAMICS\n#define VERITORQUE_INVERSE_DYNAMICS\n",
+            TYPES,
+            DYNAMICS,
+            "#endif /* VERITORQUE_INVERSE_DYNAMICS */\n",
             _array("veritorque_link", f"{name}_links", _links(identified)),
             _array("veritorque_joint", f"{name}_joints", _joints(identified)),
             _motors(identified, name),

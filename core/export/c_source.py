@@ -1,48 +1,9 @@
-"""Hold the part of a C header that is the same for every robot: its types, and what is computed with them."""
+"""Hold what a C header computes with its types, as text: controllers need no library.
 
-TYPES_AND_DYNAMICS = r"""#ifndef VERITORQUE_INVERSE_DYNAMICS
-#define VERITORQUE_INVERSE_DYNAMICS
+It is the same for every robot.
+"""
 
-#include <math.h>
-
-#define VERITORQUE_MOST_LINKS 64
-
-typedef struct {
-    const char *name;
-    int prismatic;         /* 0: revolute about z, 1: prismatic along z */
-    int antecedent;        /* number of the link that carries it, from 1; 0: the base */
-    int joint;             /* number of the joint that moves it, from 1 */
-    double rotation[9];    /* row by row: from this frame into the antecedent's, at zero coordinate */
-    double translation[3]; /* m, in the antecedent's frame */
-    double ratio, offset;  /* its angle (rad) or stroke (m) is ratio * q[joint - 1] + offset */
-    double inertial[10];   /* XX XY XZ YY YZ ZZ (kg m2, about the frame's origin) MX MY MZ (kg m) M (kg) */
-} veritorque_link;
-
-typedef struct {
-    const char *name;
-    double IA;    /* rotor inertia seen at the joint, kg m2 (prismatic: kg) */
-    double FV;    /* viscous friction, N m s/rad (prismatic: N s/m) */
-    double FC;    /* Coulomb friction, N m (prismatic: N) */
-    double OFF;   /* torque offset, N m (prismatic: N) */
-    double width; /* rad/s (m/s): FC acts as FC tanh(dq / width); 0: as FC sign(dq) */
-} veritorque_joint;
-
-typedef struct {
-    const char *name;
-    const double *weights;    /* per joint: the motor turns with the sum of weights[j] * q[j] */
-    double IAM, FVM, FCM, width; /* as of a joint, of that sum */
-} veritorque_motor;
-
-typedef struct {
-    const char *name;
-    double gravity[3]; /* acceleration of gravity in the base frame, m/s2 */
-    int links, joints, motors;
-    const veritorque_link *link;
-    const veritorque_joint *joint;
-    const veritorque_motor *motor;
-} veritorque_robot;
-
-static inline double veritorque_direction(double speed, double width)
+DYNAMICS = r"""static inline double veritorque_direction(double speed, double width)
 {
     return width > 0.0 ? tanh(speed / width) : (double)((speed > 0.0) - (speed < 0.0));
 }
@@ -99,6 +60,21 @@ static inline void veritorque_carry(const double *turn, const double *shift, con
         moment0[k] += twisted[k];
     }
     veritorque_add_cross(shift, pushed, moment0);
+}
+
+/* Add to tau what the links ask of their joints, from tip to base: each carries those behind it as well. */
+static inline void veritorque_inward(const veritorque_robot *robot, double turn[][9], double shift[][3],
+                                     double force[][3], double moment[][3], double *tau)
+{
+    int i;
+
+    for (i = robot->links - 1; i >= 0; --i) {
+        const veritorque_link *link = &robot->link[i];
+        const int before = link->antecedent - 1;
+        tau[link->joint - 1] += link->ratio * (link->prismatic ? force[i][2] : moment[i][2]);
+        if (before >= 0)
+            veritorque_carry(turn[i], shift[i], force[i], moment[i], force[before], moment[before]);
+    }
 }
 
 /* Joint torque (N m; prismatic: N) of a motion: q (rad, m), dq and ddq per second; one number per joint each.
@@ -159,13 +135,7 @@ static inline void veritorque_inverse_dynamics(const veritorque_robot *robot, co
         tau[j] = drive->IA * ddq[j] + drive->FV * dq[j]
                  + drive->FC * veritorque_direction(dq[j], drive->width) + drive->OFF;
     }
-    for (i = robot->links - 1; i >= 0; --i) {
-        const veritorque_link *link = &robot->link[i];
-        const int before = link->antecedent - 1;
-        tau[link->joint - 1] += link->ratio * (link->prismatic ? force[i][2] : moment[i][2]);
-        if (before >= 0)
-            veritorque_carry(turn[i], shift[i], force[i], moment[i], force[before], moment[before]);
-    }
+    veritorque_inward(robot, turn, shift, force, moment, tau);
     for (i = 0; i < robot->motors; ++i) {
         const veritorque_motor *motor = &robot->motor[i];
         double speed = 0.0, speeding = 0.0, torque;
@@ -201,13 +171,7 @@ static inline void veritorque_gravity(const veritorque_robot *robot, const doubl
     }
     for (j = 0; j < robot->joints; ++j)
         tau[j] = 0.0;
-    for (i = robot->links - 1; i >= 0; --i) {
-        const veritorque_link *link = &robot->link[i];
-        const int before = link->antecedent - 1;
-        tau[link->joint - 1] += link->ratio * (link->prismatic ? force[i][2] : moment[i][2]);
-        if (before >= 0)
-            veritorque_carry(turn[i], shift[i], force[i], moment[i], force[before], moment[before]);
-    }
+    veritorque_inward(robot, turn, shift, force, moment, tau);
 }
 
 /* Add to a composite body (XX XY XZ YY YZ ZZ MX MY MZ M) that of a link it carries, in its frame. */
@@ -291,7 +255,5 @@ static inline void veritorque_inertia_matrix(const veritorque_robot *robot, cons
             for (k = 0; k < n; ++k)
                 M[j * n + k] += robot->motor[i].IAM * robot->motor[i].weights[j] * robot->motor[i].weights[k];
 }
-
-#endif /* VERITORQUE_INVERSE_DYNAMICS */
 """
 """C99 without anything but math.h; it allocates nothing, and two robots' headers may stand in one file."""

@@ -4,38 +4,20 @@ An estimator that fails is a row of the table like any other: it says why.
 """
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..errors import ExcitationError, LogError, OptionError, SolverError, VeritorqueError
-from ..estimate.methods.auto import AUTO
 from ..estimate.methods.kalman import KalmanFilter
-from ..estimate.methods.method import PERIODS, Estimator
+from ..estimate.methods.method import Estimator
 from ..estimate.methods.registry import ESTIMATORS
 from ..estimate.problem import Problem
 from ..simulation.mechanism import mechanism_of
 from ..simulation.multistep import MultiStep, predict_motion
+from .comparison_options import options_for
 from .identify import fit, judge, no_progress
-from .options import BEGINNING, IdentifyOptions, parse_options
+from .options import parse_options
 from .result import Identification
-
-COMPARE = "compare"
-"""Option: the names of the estimators."""
-ALL = tuple(name for name in ESTIMATORS if name != AUTO)
-"""The estimators that are compared unless some are named: a choice among them is none."""
-_ACTS: Mapping[str, Callable[[Estimator], bool]] = {
-    "bounds": lambda method: method.feasible,
-    "prior.entropy": lambda method: method.feasible,
-    "robust": lambda method: method.row_weights,
-    "simulation": lambda method: method.iterative,
-    "simulation.from": lambda method: bool(method.sources),
-    "simulation.bandwidth_hz": lambda method: bool(method.sources),
-    "controller": lambda method: bool(method.sources),
-    "simulation.window_seconds": lambda method: method.iterative and not method.sources,
-    "iteration": lambda method: method.iterative,
-    "kalman": lambda method: isinstance(method, KalmanFilter),
-}
-"""Options, of a section too, that do not act on every estimator."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,85 +33,6 @@ class Compared:
     """Why not; empty where it could."""
     cpu_seconds: float
     """Processor time of fit and judgement, without the reading and conditioning of the logs."""
-
-
-def read_estimators(options: Mapping[str, object]) -> tuple[str, ...]:
-    """Read the names of the estimators that are to be compared; all by default, but for the choice of one.
-
-    Raises
-    ------
-    OptionError
-        If they are no list of at least two known names, each named once, or one estimator is asked for.
-    """
-    names = options.get(COMPARE)
-    if options.get("estimator") is not None:
-        raise OptionError(
-            "a comparison has no option estimator",
-            evidence={"pointer": "/options/estimator", "given": str(options["estimator"])[:50]},
-            remedy=f"name the estimators in the option {COMPARE}",
-        )
-    if names is None:
-        return ALL
-    listed = [str(name) for name in names] if isinstance(names, list) else []
-    if not 2 <= len(set(listed)) == len(listed) or not set(listed) <= set(ESTIMATORS):
-        raise OptionError(
-            "a comparison takes at least two known estimators, each named once",
-            evidence={"pointer": f"/options/{COMPARE}", "given": str(names)[:80], "known": list(ESTIMATORS)},
-            remedy='give a list of names, such as ["sdp", "wls"]',
-        )
-    return tuple(listed)
-
-
-def read_options(options: Mapping[str, object]) -> IdentifyOptions:
-    """Read a comparison's options, of every estimator; gives those by which all of them begin.
-
-    Raises
-    ------
-    OptionError
-        If an option is not valid, or acts on none of the estimators.
-    """
-    names = read_estimators(options)
-    for name in names:
-        parse_options(options_for(options, name))
-    for key, acts in _ACTS.items():
-        if not any(acts(ESTIMATORS[name]) for name in names):
-            parse_options({"estimator": names[0], **_only(options, key)})
-    if _other_periods(options) and not any(PERIODS in ESTIMATORS[name].sources for name in names):
-        parse_options({"estimator": names[0], **_only(options, "simulation.from")})
-    return parse_options(options_for(options, BEGINNING))
-
-
-def options_for(options: Mapping[str, object], name: str) -> dict[str, object]:
-    """Give a comparison's options for one estimator: without those that have no effect on it."""
-    method = ESTIMATORS[name]
-    idle = {COMPARE, *(key for key, acts in _ACTS.items() if not acts(method)), *_unusable(options, method)}
-    own = {
-        key: {inner: part for inner, part in value.items() if f"{key}.{inner}" not in idle}
-        if isinstance(value, Mapping)
-        else value
-        for key, value in options.items()
-        if key not in idle
-    }
-    return own | {"estimator": name}
-
-
-def _unusable(options: Mapping[str, object], method: Estimator) -> set[str]:
-    """Give the source of motion where the estimator cannot use it and others may."""
-    return {"simulation.from"} if _other_periods(options) and PERIODS not in method.sources else set()
-
-
-def _other_periods(options: Mapping[str, object]) -> bool:
-    """Tell whether instruments of other periods are asked for, which not every estimator takes."""
-    return _only(options, "simulation.from") == {"simulation": {"from": PERIODS}}
-
-
-def _only(options: Mapping[str, object], key: str) -> dict[str, object]:
-    """Give one option alone, or one of a section; nothing where it is not given."""
-    section, _, name = key.partition(".")
-    value = options.get(section)
-    if not name:
-        return {section: value}
-    return {section: {name: value[name]}} if isinstance(value, Mapping) and name in value else {}
 
 
 def fit_by(name: str, options: Mapping[str, object], begun: Identification) -> Compared:

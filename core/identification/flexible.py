@@ -25,6 +25,7 @@ from ..regressor.observe import torque_scales
 from ..simulation.closed_loop.springs import links_of
 from ..simulation.mechanism import mechanism_of
 from ..validation.springs_seen import reasons_unseen
+from .options import IdentifyOptions
 from .spring_evidence import KNOWN, positions_of, refuse_hidden, seen_by
 
 CLEAR: Final = 3.0
@@ -55,7 +56,7 @@ class FlexibleJoint:
 
 
 def springs_of(
-    problem: Problem, step: Step, found: Estimate, covariance: SquareMatrix, options: EstimateOptions
+    problem: Problem, step: Step, found: Estimate, covariance: SquareMatrix, options: IdentifyOptions
 ) -> tuple[FlexibleJoint, ...]:
     """Give what is known of every flexible joint; nothing where all are rigid.
 
@@ -67,19 +68,19 @@ def springs_of(
     joints = flexible_joints(problem.base.model)
     if not joints:
         return ()
-    rigid = _rigid(problem, options)
+    rigid = _rigid(problem, options.estimate)
     flexible = step.data, found.base
     known = _Springs(problem, found, covariance)
     springs = tuple(known.of(joint, _gain(rigid, flexible, joint)) for joint in joints)
     evidence = {spring.joint: spring.evidence for spring in springs}
     reasons = {joint: list(reasons_unseen(own)) for joint, own in evidence.items()}
     for joint, own in evidence.items():
-        if not own[GAIN] >= CLEAR:
+        if not own.get(GAIN, np.inf) >= CLEAR:
             reasons[joint].append(
-                f"it explains the torque no better than a rigid one ({own[GAIN]:.2g} deviations, not"
-                f" {CLEAR:g})"
+                f"a flexible joint explains the torque no better than a rigid one ({own[GAIN]:.2g}"
+                f" deviations, not {CLEAR:g})"
             )
-    refuse_hidden(evidence, reasons)
+    refuse_hidden(evidence, reasons, options.filter.cutoff_hz)
     return springs
 
 
@@ -92,13 +93,16 @@ def _squares(data: Equations, base: BaseParameters, joint: int) -> Vector:
 
 def _gain(
     rigid: tuple[Equations, BaseParameters] | None, flexible: tuple[Equations, BaseParameters], joint: int
-) -> float:
-    """Give by how many deviations, over blocks, the simulated torque of a rigid robot is further off."""
+) -> dict[str, float]:
+    """Give by how many deviations, over blocks, the simulated torque of a rigid robot is further off.
+
+    Nothing where no rigid robot can be simulated.
+    """
     if rigid is None:
-        return np.inf
+        return {}
     gained = _squares(*rigid, joint) - _squares(*flexible, joint)
     spread = float(np.std(gained, ddof=1) / np.sqrt(len(gained)))
-    return float(np.mean(gained)) / spread if spread > 0.0 else 0.0
+    return {GAIN: float(np.mean(gained)) / spread if spread > 0.0 else 0.0}
 
 
 def _rigid(problem: Problem, options: EstimateOptions) -> tuple[Equations, BaseParameters] | None:
@@ -142,40 +146,32 @@ class _Springs:
         ]
         return np.column_stack([own, *slopes])
 
-    def of(self, joint: int, gain: float) -> FlexibleJoint:
+    def of(self, joint: int, gain: Mapping[str, float]) -> FlexibleJoint:
         """Give what is known of a joint (from 0)."""
         plan = self.problem.plan
-        stiff, damp, rotor = (column_of(plan, symbol, joint) for symbol in (STIFFNESS, DAMPING, ROTOR))
-        units = np.eye(len(self.base))
-        k, motor, link = self.base[stiff], self.base[rotor], self.inertias[joint, 0]
-        slope = self.inertias[joint, 1:]
-        antiresonance = np.sqrt(k / link) / (2.0 * np.pi)
-        natural = np.sqrt(k / link + k / motor) / (2.0 * np.pi)
-        by_k, by_link = units[stiff] / (2.0 * k), -slope / (2.0 * link)
-        share = link / (motor + link)
-        rows = [
-            ("stiffness", k, units[stiff], plan.model.parameters[plan.columns[stiff]].unit),
-            ("damping", self.base[damp], units[damp], plan.model.parameters[plan.columns[damp]].unit),
-            ("motor_inertia", motor, units[rotor], plan.model.parameters[plan.columns[rotor]].unit),
-            ("link_inertia", link, slope, plan.model.parameters[plan.columns[rotor]].unit),
-            ("antiresonance", antiresonance, antiresonance * (by_k + by_link), "Hz"),
-            (
-                "natural",
-                natural,
-                natural * (by_k + (1.0 - share) * by_link - share * units[rotor] / (2.0 * motor)),
-                "Hz",
-            ),
-        ]
-        quantities = tuple(
-            SpringValue(name, float(value), float(np.sqrt(max(by @ self.covariance @ by, 0.0))), unit)
-            for name, value, by, unit in rows
+        columns = [column_of(plan, symbol, joint) for symbol in (STIFFNESS, DAMPING, ROTOR)]
+        units = [plan.model.parameters[plan.columns[column]].unit for column in columns]
+        stiffness, damping, motor = self.base[columns]
+        by_stiffness, by_damping, by_motor = np.eye(len(self.base))[columns]
+        link, by_link = self.inertias[joint, 0], self.inertias[joint, 1:]
+        inverses = np.array([1.0 / link, 1.0 / link + 1.0 / motor])
+        low, high = (float(hertz) for hertz in np.sqrt(stiffness * inverses) / (2.0 * np.pi))
+        share = motor / (motor + link)
+        by_low = by_stiffness / stiffness - by_link / link
+        by_high = by_stiffness / stiffness - share * by_link / link - (1.0 - share) * by_motor / motor
+        quantities = (
+            self._value("stiffness", stiffness, by_stiffness, units[0]),
+            self._value("damping", damping, by_damping, units[1]),
+            self._value("motor_inertia", motor, by_motor, units[2]),
+            self._value("link_inertia", link, by_link, units[2]),
+            self._value("antiresonance", low, low * by_low / 2.0, "Hz"),
+            self._value("natural", high, high * by_high / 2.0, "Hz"),
         )
-        return FlexibleJoint(joint + 1, quantities, self._evidence(joint, quantities) | {GAIN: gain})
+        known = {KNOWN: 100.0 * quantities[0].standard_deviation / quantities[0].value}
+        evidence = seen_by(self.problem.motions, joint, low, high) | known | dict(gain)
+        return FlexibleJoint(joint + 1, quantities, evidence)
 
-    def _evidence(self, joint: int, quantities: tuple[SpringValue, ...]) -> dict[str, float]:
-        known = {quantity.name: quantity for quantity in quantities}
-        stiffness = known["stiffness"]
-        return {
-            **seen_by(self.problem.motions, joint, known["antiresonance"].value, known["natural"].value),
-            KNOWN: 100.0 * stiffness.standard_deviation / stiffness.value,
-        }
+    def _value(self, name: str, value: float, slopes: Vector, unit: str) -> SpringValue:
+        """Give a quantity with its deviation, by its derivatives."""
+        variance = max(slopes @ self.covariance @ slopes, 0.0)
+        return SpringValue(name, float(value), float(np.sqrt(variance)), unit)

@@ -21,18 +21,16 @@ from ..signals.recipe import FilterOptions
 from ..simulation.closed_loop.springs import links_of
 from ..simulation.mechanism import mechanism_of
 from ..validation.springs_seen import HIGHEST_SHARE, reasons_unseen
-from .spring_evidence import KNOWN, positions_of, refuse_hidden, seen_by, unseen
+from .spring_evidence import BAND_OVER_MODE, misfiltered, positions_of, refuse_hidden, seen_by, unseen
 
-BAND_OVER_MODE: Final = 1.6
-"""Parallel cut-off over the highest mode: the mode and what lies around it pass."""
 POSITIONS_OVER_BAND: Final = 3.0
 """Cut-off of positions over that: it bends what passes by less than 1e-5."""
 SETTLED: Final = 0.15
 """Relative change of the band below which it follows the modes."""
 BANDS: Final = (1.0, 2.5, 6.0)
 """Bands that are begun with, as multiples of the motion's: near the mode a spring shows most clearly."""
-ROUNDS: Final = 5
-"""Bands at most: from a tenth of the mode each round finds more of it."""
+ROUNDS: Final = 6
+"""Bands at most from each beginning: from a tenth of the mode each round finds more of it."""
 
 
 def with_springs(problem: Problem, joints: tuple[int, ...], options: FilterOptions) -> FlexibleStart:
@@ -43,40 +41,93 @@ def with_springs(problem: Problem, joints: tuple[int, ...], options: FilterOptio
     ExcitationError
         If the logs do not show that they are.
     """
-    _check_motion(problem.motions, joints)
+    check_moved(problem.motions, joints)
     own = replace(problem, base=base_model(problem.base.model.with_term(FlexibleJoints(joints))))
-    if options.cutoff_hz is not None:
-        return _sized(_checked(begin(own)))
-    band = max(motion.recipe.motion_band_hz for motion in problem.motions)
-    failure: VeritorqueError | None = None
-    for share in BANDS:
-        try:
-            return _sized(_checked(_followed(own, options, share * band)))
-        except (ExcitationError, OptionError) as error:
-            failure = failure or error
-    raise failure or unseen(list(joints), {}, "no band shows it")
+    if options.cutoff_hz is None:
+        return _sized(_found(own, options))
+    return _sized(_within(own, options, options.cutoff_hz))
 
 
-def _check_motion(motions: Sequence[Motion], joints: tuple[int, ...]) -> None:
-    """Refuse joints that stand all the time in a log, or whose torque was not measured."""
+def check_moved(motions: Sequence[Motion], joints: tuple[int, ...]) -> None:
+    """Refuse flexible joints that stand all the time in a log, or whose torque was not measured.
+
+    Raises
+    ------
+    ExcitationError
+        If there are such joints.
+    """
     for motion in motions:
         unmeasured = motion.segments[0].unmeasured
-        for marks, why in ((motion.recipe.held, "they stand"), (unmeasured, "their torque was not measured")):
+        for marks, own, all_of_them in (
+            (motion.recipe.held, "it stands", "they stand"),
+            (unmeasured, "its torque was not measured", "their torques were not measured"),
+        ):
             hidden = [joint for joint in joints if marks[joint - 1]]
             if hidden:
+                why = own if len(hidden) == 1 else all_of_them
                 raise unseen(hidden, {"joints": hidden, "log": motion.log.name}, why)
 
 
-def _followed(problem: Problem, options: FilterOptions, band: float) -> FlexibleStart:
-    """Begin with a band, and let it follow the modes that are found, but not below the motion."""
+def _found(problem: Problem, options: FilterOptions) -> FlexibleStart:
+    """Begin with the first of some bands that shows all springs."""
+    band = max(motion.recipe.motion_band_hz for motion in problem.motions)
+    failures, tried = list[VeritorqueError](), list[float]()
+    for share in BANDS:
+        try:
+            begun = _followed(problem, options, share * band, tried)
+            if begun is not None:
+                return _checked(begun)
+        except (ExcitationError, OptionError) as error:
+            failures.append(error)
+    raise failures[0]
+
+
+def _within(problem: Problem, options: FilterOptions, cutoff_hz: float) -> FlexibleStart:
+    """Begin with the filter that was asked for; where another one shows the springs, say which.
+
+    A filter below the mode is refused: the spring that explains what it passes may be several times too soft.
+    """
+    try:
+        begun = _checked(begin(problem))
+        _check_passes(begun, cutoff_hz)
+    except ExcitationError as hidden:
+        try:
+            shown = _found(problem, replace(options, cutoff_hz=None))
+        except (ExcitationError, OptionError):
+            raise hidden from None
+        raise misfiltered(hidden, cutoff_hz, float(np.max(_modes(shown)[1]))) from None
+    return begun
+
+
+def _check_passes(begun: FlexibleStart, cutoff_hz: float) -> None:
+    """Refuse a filter that does not pass the modes."""
+    joints, high = begun.transmission.joints + 1, _modes(begun)[1]
+    hidden = [int(joint) for joint, mode in zip(joints, high, strict=True) if mode > cutoff_hz]
+    if hidden:
+        evidence = {"joints": hidden, "natural_hz": high[high > cutoff_hz].tolist(), "cutoff_hz": cutoff_hz}
+        raise unseen(hidden, evidence, "the filter does not pass the mode")
+
+
+def _followed(
+    problem: Problem, options: FilterOptions, band: float, tried: list[float]
+) -> FlexibleStart | None:
+    """Begin with a band, and let it follow the modes that are found, but not below the motion.
+
+    None where it comes to a band that was tried: what is found depends on the band alone.
+    """
     least = max(motion.recipe.motion_band_hz for motion in problem.motions)
-    begun = begin(replace(problem, motions=_conditioned(problem, options, band)))
+    most = HIGHEST_SHARE * max(motion.log.rate_hz for motion in problem.motions)
+    before, begun = tuple(tried), None
     for _ in range(ROUNDS):
-        wanted = max(BAND_OVER_MODE * float(np.max(_modes(begun)[1])), least)
-        if not abs(wanted - band) > SETTLED * band:
-            break
-        band = wanted
+        if any(abs(band - other) <= SETTLED * other for other in before):
+            return None
+        tried.append(band)
         begun = begin(replace(problem, motions=_conditioned(problem, options, band)))
+        wanted = min(max(BAND_OVER_MODE * float(np.max(_modes(begun)[1])), least), most)
+        if abs(wanted - band) <= SETTLED * band:
+            return begun
+        band = wanted
+    tried.pop()  # it has not settled, and another beginning may go on from there
     return begun
 
 
@@ -97,7 +148,7 @@ def _conditioned(problem: Problem, options: FilterOptions, band_hz: float) -> tu
 
 def _modes(begun: FlexibleStart) -> tuple[Vector, Vector]:
     """Give every spring's antiresonance and natural frequency, Hz; infinite where an inertia is negative."""
-    problem, own = begun.problem, begun.transmission(begun.base)
+    problem, own = begun.problem, begun.transmission
     mechanism = links_of(mechanism_of(problem.base.model, standard_of(problem, begun.base)))
     mass = mechanism.mass_matrices(positions_of(problem))
     link = np.median(np.diagonal(mass, axis1=1, axis2=2), axis=0)[own.joints]
@@ -108,9 +159,9 @@ def _modes(begun: FlexibleStart) -> tuple[Vector, Vector]:
 def _checked(begun: FlexibleStart) -> FlexibleStart:
     """Refuse at once springs that the sampling or the torque hides: they would be simulated to no end."""
     low, high = _modes(begun)
-    joints = [int(joint) for joint in begun.transmission(begun.base).joints]
+    joints = [int(joint) for joint in begun.transmission.joints]
     evidence = {
-        joint + 1: seen_by(begun.problem.motions, joint, float(at), float(mode)) | {KNOWN: 0.0}
+        joint + 1: seen_by(begun.problem.motions, joint, float(at), float(mode))
         for joint, at, mode in zip(joints, low, high, strict=True)
     }
     refuse_hidden(evidence, {joint: _hidden_by(own) for joint, own in evidence.items()})
@@ -119,14 +170,14 @@ def _checked(begun: FlexibleStart) -> FlexibleStart:
 
 def _hidden_by(evidence: Mapping[str, float]) -> list[str]:
     """Say what hides a spring; a link without inertia has no mode."""
-    if not np.isfinite(evidence["natural_hz"]):
-        return ["what lies behind its spring would have no inertia"]
+    if "natural_hz" not in evidence:
+        return ["the link behind its spring would have no inertia"]
     return list(reasons_unseen(evidence))
 
 
 def _sized(begun: FlexibleStart) -> FlexibleStart:
     """Say what counts as one unit of a spring in a prior."""
-    own, sizes = begun.transmission(begun.base), dict(begun.problem.sizes)
+    own, sizes = begun.transmission, dict(begun.problem.sizes)
     for joint, stiffness, rotor in zip(own.joints, own.stiffness, own.rotor, strict=True):
         sizes[f"{STIFFNESS}{joint + 1}"] = float(stiffness)
         sizes[f"{DAMPING}{joint + 1}"] = float(np.sqrt(stiffness * rotor))

@@ -132,7 +132,7 @@ def _begun(
     if not joints:
         return problem, observation, lambda _: observation
     begun = with_springs(problem, joints, options.filter)
-    return begun.problem, begun.differentiated(begun.base), begun.observed
+    return begun.problem, begun.differentiated, begun.observed
 
 
 def judge(logs: tuple[JointLog, ...], found: Fit, tell: Progress, mapper: Mapper = SERIAL) -> Identification:
@@ -144,7 +144,7 @@ def judge(logs: tuple[JointLog, ...], found: Fit, tell: Progress, mapper: Mapper
     fitted, held = observation.parts(problem.held_out)
     tell("assess", 0.7)
     precision = infer(system, data.memory, data.columns_of, answer.base, prior=problem.prior)
-    springs = springs_of(problem, found.step, answer, precision.covariance, options.estimate)
+    springs = springs_of(problem, found.step, answer, precision.covariance, options)
     essential = essential_parameters(system, precision)
     kept = essential.kept if options.essential else None
     if kept is not None:

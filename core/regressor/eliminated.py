@@ -111,7 +111,9 @@ class EliminatedRows:
         for measured in motion.tiles():
             tile, given = self._flexed(measured, self.recipes[number])
             plain = list(equations(self.plan, tile))
-            yield tile, plain if self.masses is None else list(self._differentiated(tile, given, plain))
+            if self.masses is not None:
+                plain = list(self._differentiated(tile, given, plain, self.masses(tile.state.links.position)))
+            yield tile, plain
 
     def _flexed(self, tile: Tile, recipe: Recipe) -> tuple[Tile, JointSeries]:
         """Give the tile with the links' motion, and the way that the springs give."""
@@ -127,11 +129,10 @@ class EliminatedRows:
         return replace(tile, state=flexed), given
 
     def _differentiated(
-        self, tile: Tile, given: JointSeries, plain: list[FilteredRows]
+        self, tile: Tile, given: JointSeries, plain: list[FilteredRows], masses: np.ndarray
     ) -> Iterator[FilteredRows]:
         moved = self._moved(tile.state, given)
         own = self.transmission.joints
-        masses = self._masses_at(tile.state)
         for joint, (rows, usable) in enumerate(plain):
             whole = np.zeros((len(rows), len(self.base) + 1))
             whole[:, self.plan.columns_of[joint]] = rows[:, :-1]
@@ -143,11 +144,6 @@ class EliminatedRows:
             whole[:, -1] = rows[:, -1] + added.T @ self.base[list(columns)]
             yield whole, usable
 
-    def _masses_at(self, state: MotionState) -> np.ndarray:
-        if self.masses is None:
-            return np.zeros((0, 0, 0))
-        return self.masses(state.links.position)
-
     def _moved(self, state: MotionState, given: JointSeries) -> list[tuple[int, int, Samples]]:
         """List, per parameter that moves a link, its column, the spring, and the change of acceleration."""
         own, step = self.transmission, step_of(state)
@@ -156,14 +152,11 @@ class EliminatedRows:
         rotor = rates(own.behind(state.acceleration[:, own.joints], step), state)[1]
         found = list[tuple[int, int, Samples]]()
         for at, joint in enumerate(own.joints):
-            found.append((self._column(ROTOR, joint), at, rotor[:, at]))
-            found.append((self._column(STIFFNESS, joint), at, bend[:, at] / own.stiffness[at]))
+            found.append((column_of(self.plan, ROTOR, joint), at, rotor[:, at]))
+            found.append((column_of(self.plan, STIFFNESS, joint), at, bend[:, at] / own.stiffness[at]))
             if self.damped:
-                found.append((self._column(DAMPING, joint), at, jerk[:, at] / own.stiffness[at]))
+                found.append((column_of(self.plan, DAMPING, joint), at, jerk[:, at] / own.stiffness[at]))
         return found
-
-    def _column(self, symbol: str, joint: int) -> int:
-        return column_of(self.plan, symbol, joint)
 
 
 def column_of(plan: ColumnPlan, symbol: str, joint: int) -> int:

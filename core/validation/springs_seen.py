@@ -29,10 +29,10 @@ def reasons_unseen(evidence: Mapping[str, float]) -> Iterator[str]:
     Parameters
     ----------
     evidence
-        `natural_hz`, `rate_hz`, `stiffness_deviation_percent` and `torque_share_percent`.
+        `natural_hz`, `rate_hz`, `torque_share_percent`, and `stiffness_deviation_percent` where it is known.
     """
-    natural, rate = evidence["natural_hz"], evidence["rate_hz"]
-    percent, share = evidence["stiffness_deviation_percent"], evidence["torque_share_percent"]
+    natural, rate, share = (evidence[name] for name in ("natural_hz", "rate_hz", "torque_share_percent"))
+    percent = evidence.get("stiffness_deviation_percent", 0.0)
     if natural > HIGHEST_SHARE * rate:
         yield f"the mode at {natural:.3g} Hz is above {HIGHEST_SHARE:g} times the rate of {rate:.4g} Hz"
     if not percent <= WORST_PERCENT:

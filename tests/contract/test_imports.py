@@ -133,3 +133,16 @@ def test_a_service_starts_without_what_only_its_computations_need():
         [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
     )
     assert not loaded.stdout.split()
+
+
+def test_a_service_reads_the_options_of_every_kind_without_what_only_its_computations_need():
+    heavy = {"clarabel", "numba", "sklearn"}
+    code = (
+        "import sys; from veritorque.app.kinds.registry import KINDS; "
+        "[kind.read_example() for kind in KINDS.values()]; "
+        f"print(*sorted({heavy} & set(sys.modules)))"
+    )
+    loaded = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    assert not loaded.stdout.split()

@@ -13,7 +13,8 @@ from veritorque.app.terminal.output.comparison import print_comparison
 from veritorque.core.errors import OptionError
 from veritorque.core.estimator_comparison import compare_estimators
 from veritorque.core.export.comparison import comparison_csv, comparison_latex
-from veritorque.core.identification.comparison import ALL, read_estimators, read_options
+from veritorque.core.identification.comparison_options import ALL, read_estimators, read_options
+from veritorque.core.identification.options import parse_options
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.study import IdentifyRequest, identify
@@ -105,6 +106,15 @@ def test_one_estimator_beside_the_compared_ones_is_refused():
 def test_an_option_that_is_not_valid_or_acts_on_none_of_the_estimators_is_refused(options):
     with pytest.raises(OptionError):
         read_options(options)
+
+
+@pytest.mark.parametrize("names", [["sdp", "didim"], None])
+def test_a_comparison_refuses_flexible_joints_and_names_the_job_that_takes_them(names):
+    with pytest.raises(OptionError, match="flexible joints make another") as refused:
+        read_options({"compare": names, "flexible_joints": [1]})
+    assert "identify" in refused.value.remedy
+    assert parse_options({"flexible_joints": [1], "estimator": refused.value.evidence["estimator"]})
+    assert read_options({"compare": names, "flexible_joints": []})
 
 
 @pytest.mark.parametrize(

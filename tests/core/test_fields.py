@@ -68,6 +68,12 @@ def test_a_value_of_another_kind_is_refused_with_its_place_and_what_it_must_be(n
     assert caught.value.remedy == f"give {name} as {MEANINGS[name]}"
 
 
+@given(st.integers(-(2**53), 2**53))
+def test_a_whole_number_is_read_with_or_without_a_decimal_point(number):
+    read = settings_of({"rounds": float(number)}).rounds
+    assert (read, type(read)) == (number, int)
+
+
 def test_an_unknown_field_is_answered_with_the_known_ones_and_the_nearest():
     with pytest.raises(OptionError) as caught:
         settings_of({"cut_off": 1.0})

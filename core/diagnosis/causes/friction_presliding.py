@@ -26,18 +26,23 @@ class FrictionPresliding(OwnJointCause):
     coordinate = "travel"
 
     def grid(self, at: Setting) -> Sequence[Scalars]:
-        """Scan the distance from 1 / 5000 to a sixth of the joint's range of motion."""
+        """Scan the distance from 1 / 5000 to a sixth of the joint's range, as far as a gear can have it."""
         span = max(float(np.ptp(at.dataset.state.position[:, at.joint - 1])), 1e-6)
         distances = geometric_grid(NARROWEST * span, WIDEST * span, STEPS)
-        return [{"presliding_distance": distance} for distance in distances]
+        return [
+            {"presliding_distance": distance}
+            for distance in distances
+            if distance <= ADMISSIBLE.presliding_distance
+        ]
 
     def term(self, at: Setting) -> Term:
         """Give the column."""
         return Presliding(at.joint, at.scalars["presliding_distance"])
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Admit friction that builds up."""
-        return super().admissible(solved) and bool(solved.values[0] > 0.0)
+        """Admit friction that builds up over a distance that a gear can have."""
+        near = solved.scalars["presliding_distance"] <= ADMISSIBLE.presliding_distance
+        return super().admissible(solved) and near and bool(solved.values[0] > 0.0)
 
     def represented(self, at: Setting, solved: FittedCause) -> bool:
         """Doubt a level that may as well be Coulomb friction, which the model has."""

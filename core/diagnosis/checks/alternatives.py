@@ -179,8 +179,9 @@ def compare_member(state: SearchState, index: int, own: Hypothesis) -> Compariso
         other, ratio = trial.members[-1], likelihood_ratio(without, trial)
         if keeps_beside(fitter, without, own, other, ratio):
             continue
-        behind = own_gain - bic_gain(without, trial)
         why = _objection(fitter, without, trial)
+        settled = _at_its_own_point(state, trial, why)
+        ratio, behind = likelihood_ratio(without, settled), own_gain - bic_gain(without, settled)
         if not why:
             margin = min(margin, behind)
         # An alternative that explains no more than position noise might refutes no finding.
@@ -244,6 +245,18 @@ def _trials(state: SearchState, without: Hypothesis) -> list[Hypothesis]:
     trials = [with_candidate(fitter, without, scored) for scored in others[: SEARCH.swaps]]
     whole = [fitter.fit(trial.members, trial) for trial in trials]
     return sorted(whole, key=lambda trial: -bic_gain(without, trial))
+
+
+def _at_its_own_point(state: SearchState, trial: Hypothesis, why: str) -> Hypothesis:
+    """Fit an alternative that can be one where it is linearised at itself, unless it is worse there.
+
+    Where robot or signals are wrong, columns are derivatives of the model's torque. Those of a zero that is
+    off by some degrees differ at a model with another cause in its place. A further term has its own columns.
+    """
+    if why or trial.members[-1].cause.cure == "term":
+        return trial
+    moved = state.linearised_at(trial).chosen
+    return max(trial, moved if moved.admissible else trial, key=lambda one: one.fit.log_likelihood)
 
 
 def _undecided_bound(member: Candidate, other: Candidate, own_ratio: float) -> float:

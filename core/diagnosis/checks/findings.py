@@ -15,8 +15,9 @@ from ..search.hypothesis import Hypothesis
 from ..search.likelihood_ratio import log_p_of
 from ..search.residuals import residual
 from ..search.state import SearchState
-from ..thresholds.checks import CONFIDENCE
+from ..thresholds.checks import BLOCK_SCATTER, CONFIDENCE
 from .alternatives import Comparison
+from .block_scatter import block_log_p
 from .command import command_evidence
 from .confidence import confidence, predictors
 from .figure import curve
@@ -49,7 +50,9 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
     margin = min(own.margin, own.over_unnamed, own.statistic - unnamed)
     evidence = predictors(own.statistic, margin, measured)
     at = Setting(dataset, fitter.operating_point, member.site, member.scalars)
-    doubtful = own.margin < 0.0 or not (cause.represented(at, solved) and has_known_size(cause, solved))
+    scattered = _between_blocks(fitter, chosen, index, own)
+    represented = cause.represented(at, solved) and has_known_size(cause, solved)
+    doubtful = own.margin < 0.0 or not represented or _scatters(scattered)
     return Finding(
         cause=cause.id,
         title=cause.title,
@@ -64,6 +67,7 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
         evidence=(
             *_evidence(own, log_p, member.trials),
             *_on_holdout(fitter, chosen, index, own),
+            *scattered,
             *command_evidence(dataset.motions, cause.id, member.site),
         ),
         ambiguous_with=own.ambiguous,
@@ -93,6 +97,27 @@ def _evidence(own: Comparison, log_p: float, trials: float) -> tuple[Evidence, .
         ),
         *_over_unnamed(own),
     )
+
+
+def _between_blocks(
+    fitter: HypothesisFitter, chosen: Hypothesis, index: int, own: Comparison
+) -> tuple[Evidence, ...]:
+    """Give its p-value by the scatter between blocks; not of a transient cause, which is in few of them."""
+    if own.member.cause.traits.transient:
+        return ()
+    log_p = block_log_p(fitter, chosen, index, own.statistic)
+    return (
+        Evidence(
+            "Logarithm of the p-value by the scatter between parts of the log, corrected in the same way; "
+            f"above {np.log10(BLOCK_SCATTER.level):.0f} the finding is doubtful",
+            "log10 p between blocks",
+            log_p / float(np.log(10.0)),
+        ),
+    )
+
+
+def _scatters(between_blocks: tuple[Evidence, ...]) -> bool:
+    return any(one.value > float(np.log10(BLOCK_SCATTER.level)) for one in between_blocks)
 
 
 def _on_holdout(

@@ -30,13 +30,14 @@ class Share:
     prediction: Vector
 
 
-def row_blocks(dataset: Dataset) -> Indices:
+def row_blocks(dataset: Dataset, blocks: int | None = None) -> Indices:
     """Cut the rows into contiguous blocks of nearly equal length, numbered from 0; none spans a gap."""
+    wanted = PREDICTION.blocks if blocks is None else blocks
     label = np.zeros(len(dataset.time), dtype=int)
     borders = np.append(np.flatnonzero(dataset.starts), len(dataset.time))
     done = 0
     for start, stop in pairwise(borders):
-        count = max(1, round(PREDICTION.blocks * float(stop - start) / len(dataset.time)))
+        count = max(1, round(wanted * float(stop - start) / len(dataset.time)))
         label[start:stop] = done + np.arange(stop - start) * count // (stop - start)
         done += count
     return label

@@ -59,6 +59,9 @@ class Admissible:
     least_power: float = 0.25
     """Friction exponent below which a finding is doubtful: next to reversals much else leaves a residual.
     Source: measured robots whose torque was made late left 0.10 to 0.18; a true 0.4 is known to 0.07."""
+    presliding_distance: float = 0.3
+    """Radians (metres) over which friction may build up after a reversal. Set by hand: measured gears have
+    some milliradians; 1.2 were fitted to what a zero error of another joint left."""
     level_deviations: float = 3.0
     """Standard deviations of a presliding level below which a finding is doubtful. Source: measured robots
     whose torque was made late left 2.0 and 2.2; of 12 simulated ones 11 have more than 4."""

@@ -1,7 +1,8 @@
 """Read text whose cells are separated by commas, semicolons, tabs or blanks.
 
-Comment lines start with `#`; with semicolons, tabs and blanks a decimal comma is understood. A header which
-is itself the last comment line, as numpy.savetxt writes it, is accepted, and a table without one.
+Comments start with `#`, between rows also with `%`; with semicolons, tabs and blanks a decimal comma is
+understood. A header which is itself the last comment line, as numpy.savetxt writes it, is accepted, and a
+table without one.
 """
 
 import re
@@ -105,7 +106,7 @@ class DelimitedTable:
             column_names=list(self.names), skip_rows=self.skip, block_size=BLOCK_BYTES, use_threads=False
         )
         delimiter = "\t" if self.delimiter == BLANKS else self.delimiter
-        parse = arrow_csv.ParseOptions(delimiter=delimiter, invalid_row_handler=_pass_over_comment)
+        parse = arrow_csv.ParseOptions(delimiter=delimiter)
         with reading(FORM, self.path), self._naming_columns(), self._rows(delimiter) as rows:
             yield from arrow_csv.open_csv(rows, read, parse, convert)
 
@@ -115,7 +116,7 @@ class DelimitedTable:
         if self.delimiter != BLANKS and not self.repeated and self.odd == OddRows():
             return file
         nothing = delimiter.encode() * (len(self.names) - 1) + b"\n"
-        left_out = dict.fromkeys((self.odd.cut, *self.odd.below), b"")
+        left_out = dict.fromkeys((self.odd.cut, *self.odd.below, *self.odd.comments), b"")
         return TidyLines(
             file,
             blanks=self.delimiter == BLANKS,
@@ -136,11 +137,6 @@ class DelimitedTable:
             raise
 
 
-def _pass_over_comment(row: arrow_csv.InvalidRow) -> str:
-    """Say what becomes of a line of another number of cells: all that are no comments were found before."""
-    return "skip" if row.text.lstrip().startswith("#") else "error"
-
-
 def open_delimited(path: Path) -> DelimitedTable:
     """Find the header line, the delimiter and the decimal sign.
 
@@ -158,11 +154,12 @@ def open_delimited(path: Path) -> DelimitedTable:
     if len(names) == 1:
         _refuse_blanks(found, lines)
     row = found.first_row
-    repeated = check_text(path, lines[found.header_at] if found.cells else "", encoding)
+    header = lines[found.header_at].strip().encode() if found.cells else b""
+    repeated = check_text(path, header, encoding)
     repeated = max(repeated - (found.header_at > 0), 0)
     cells = dict(zip(names, split_cells(row, found.delimiter), strict=False))
     stamps = tuple(name for name, cell in cells.items() if STAMP.fullmatch(cell))
-    odd = find_odd_rows(path, encoding, found)
+    odd = find_odd_rows(path, encoding, found, header)
     return DelimitedTable(
         path=path,
         names=names,
@@ -174,7 +171,7 @@ def open_delimited(path: Path) -> DelimitedTable:
         units=_units(names, found),
         notes=(*ENCODING_NOTES[encoding], *_notes(found, stamps, repeated), *odd.notes()),
         odd=odd,
-        repeated=lines[found.header_at].strip().encode() if repeated else b"",
+        repeated=header if repeated else b"",
         encoding=encoding,
     )
 

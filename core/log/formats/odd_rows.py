@@ -3,9 +3,10 @@
 A recorder that is killed leaves half a row, and a serial line loses bytes. The cells of such a row may be
 those of other columns, so that none is used. It is read as a row of blanks: a log without a clock keeps its
 time, and rows without values are found and left out later. One at the very end is left out here, and so are
-lines of text below the table.
+comments between the rows, whatever separators they hold, and lines of text below the table.
 """
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import islice, takewhile
@@ -28,6 +29,10 @@ those of the right length cannot be trusted either."""
 SHOWN_LINES = 20
 MOST_BELOW = 20
 """Up to so many lines may stand below a table: what a recorder says at the end, not text among the rows."""
+COMMENT_MARKS = (b"#", b"%")
+"""What a comment between rows begins with."""
+EMPTY = (b"\n", b"\r\n", b"\r")
+_COMMENT = re.compile(rb"(?:^|[\r\n])[ \t]*[#%]")
 _NOTHING = frozenset(word.strip() for word in words_for_nothing())
 
 
@@ -41,16 +46,19 @@ class OddRows:
     """The last line, if it is cut short or otherwise no row; else 0."""
     below: tuple[int, ...] = ()
     """Lines below the table, some of which hold words where rows hold numbers."""
+    comments: tuple[int, ...] = ()
+    """Comments between the rows and below them."""
 
     def notes(self) -> Iterator[str]:
         """Say which rows are not read."""
         if self.blank:
-            shown = ", ".join(map(str, self.blank[:SHOWN_LINES]))
-            more = ", ..." if len(self.blank) > SHOWN_LINES else ""
             yield (
                 f"{count_text(len(self.blank), 'row')} with another number of cells than there are columns "
-                f"read as blank (line{'s' if len(self.blank) > 1 else ''} {shown}{more})"
+                f"read as blank ({_named(self.blank)})"
             )
+        if self.comments:
+            comments = count_text(len(self.comments), "comment")
+            yield f"{comments} between the rows left out ({_named(self.comments)})"
         if self.cut:
             yield f"the last row, cut short, left out (line {self.cut})"
         if self.below:
@@ -58,17 +66,29 @@ class OddRows:
             yield f"{lines} below the table left out (from line {self.below[0]} on)"
 
 
-def find_odd_rows(path: Path, encoding: str, found: TextHeader) -> OddRows:
-    """Find the rows that do not have a cell for every column.
+def _named(lines: Sequence[int]) -> str:
+    """Name the first of some lines."""
+    shown = ", ".join(map(str, lines[:SHOWN_LINES]))
+    return f"line{'s' if len(lines) > 1 else ''} {shown}{', ...' if len(lines) > SHOWN_LINES else ''}"
+
+
+def find_odd_rows(path: Path, encoding: str, found: TextHeader, header: bytes = b"") -> OddRows:
+    """Find the rows that do not have a cell for every column, and the comments between rows.
+
+    Parameters
+    ----------
+    header
+        The header, which may come again: it is no comment.
 
     Raises
     ------
     LogError
         If they are more than a few.
     """
-    seen = _Rows(found)
+    seen = _Rows(found, header)
     enough = MOST_ODD * path.stat().st_size / found.width  # a cell takes a byte at least
-    for block in _blocks(path, encoding):
+    blocks = _blocks(path, encoding)
+    for block in blocks:
         seen.take(block)
         if len(seen.odd) > enough:
             break
@@ -76,8 +96,8 @@ def find_odd_rows(path: Path, encoding: str, found: TextHeader) -> OddRows:
     cut = 0 if below else _cut_line(seen)
     blank = tuple(line for line in seen.odd if line not in (cut, *below))
     if len(blank) > MOST_ODD * seen.rows:
-        raise _too_many(seen, found)
-    return OddRows(blank, cut, below)
+        raise _too_many(seen, found, whole=not any(blocks))
+    return OddRows(blank, cut, below, tuple(seen.comments))
 
 
 def _cut_line(seen: "_Rows") -> int:
@@ -119,13 +139,16 @@ class _Rows:
     """Count the rows of a table, and gather those of another length."""
 
     table: TextHeader
+    header: bytes = b""
     rows: int = 0
     odd: list[int] = field(default_factory=list)
     """Their lines."""
     first: bytes = b""
     """The first of them."""
+    comments: list[int] = field(default_factory=list)
+    """The lines of comments."""
     last: list[tuple[int, bytes]] = field(default_factory=list)
-    """The last lines that are not empty, with their numbers."""
+    """The last lines that are neither empty nor comments, with their numbers."""
     _lines: int = 0
 
     def take(self, block: bytes) -> None:
@@ -146,8 +169,13 @@ class _Rows:
         self.rows += len(lines[begin:])
         for place in self._doubtful(lines):
             line = lines[place]
-            if place < begin or _is_no_row(line):
-                self.rows -= place >= begin
+            if place < begin:
+                continue
+            if self._is_comment(line):
+                self.comments.append(self._lines + place + 1)
+                self.rows -= 1
+            elif line in EMPTY or line.strip() == self.header:
+                self.rows -= 1
             elif not _is_whole(line, self.table):
                 self.first = self.first or line
                 self.odd.append(self._lines + place + 1)
@@ -156,21 +184,33 @@ class _Rows:
 
     def _keep_last(self, lines: Sequence[bytes], begin: int, before: int) -> None:
         found = ((place, lines[place]) for place in reversed(range(begin, len(lines))))
-        new = islice(((before + place + 1, line) for place, line in found if line.strip()), MOST_BELOW)
+        filled = ((place, line) for place, line in found if line.strip() and not self._is_comment(line))
+        new = islice(((before + place + 1, line) for place, line in filled), MOST_BELOW)
         self.last = [*self.last, *reversed(list(new))][-MOST_BELOW:]
 
     def _doubtful(self, lines: Sequence[bytes]) -> Sequence[int]:
-        """Leave out the lines that have as many separators as a row, and no quotation."""
+        """Leave out the lines that have as many separators as a row, no quotation, and are no comments."""
         if self.table.delimiter == BLANKS:
             return range(len(lines))
         mark, most = self.table.delimiter.encode(), self.table.width - 1
-        return [place for place, line in enumerate(lines) if line.count(mark) != most or b'"' in line]
+        return [
+            place
+            for place, line in enumerate(lines)
+            if line.count(mark) != most or b'"' in line or self._is_comment(line)
+        ]
+
+    def _is_comment(self, line: bytes) -> bool:
+        """Tell whether a line is a comment, unless the header or the first row begins like it."""
+        text = line.lstrip()
+        if not text.startswith(COMMENT_MARKS) or text.rstrip() == self.header:
+            return False
+        return not self.table.first_row.encode().lstrip().startswith(text[:1])
 
 
 def _ends_of_rows(block: bytes, table: TextHeader) -> Indices | None:
-    """Give where each line ends, if all have as many separators as a row and none holds a quotation."""
+    """Give where each line ends, if all have as many separators as a row and none is quoted or a comment."""
     marks = table.width - 1
-    if table.delimiter == BLANKS or not marks or b'"' in block or _has_other_ends(block):
+    if table.delimiter == BLANKS or not marks or _is_odd(block):
         return None
     text = np.frombuffer(block, dtype=np.uint8)
     ends = np.flatnonzero(text == ord("\n"))
@@ -182,13 +222,12 @@ def _ends_of_rows(block: bytes, table: TextHeader) -> Indices | None:
     return ends if apart else None
 
 
-def _has_other_ends(block: bytes) -> bool:
-    """Tell whether some line ends in a carriage return alone."""
-    return b"\r" in block and block.count(b"\r") != block.count(b"\r\n")
-
-
-def _is_no_row(line: bytes) -> bool:
-    return line in (b"\n", b"\r\n", b"\r") or line.lstrip().startswith(b"#")
+def _is_odd(block: bytes) -> bool:
+    """Tell whether a line is quoted or a comment, or ends in a carriage return alone."""
+    if b'"' in block or (b"\r" in block and block.count(b"\r") != block.count(b"\r\n")):
+        return True
+    commented = any(mark in block for mark in COMMENT_MARKS)
+    return commented and _COMMENT.search(block) is not None
 
 
 def _is_whole(line: bytes, table: TextHeader) -> bool:
@@ -211,18 +250,19 @@ def _cells(line: bytes, table: TextHeader) -> list[str]:
     return split_cells(line.decode("utf-8", "replace").strip("\r\n"), table.delimiter)
 
 
-def _too_many(seen: _Rows, table: TextHeader) -> LogError:
+def _too_many(seen: _Rows, table: TextHeader, *, whole: bool) -> LogError:
+    """Say how many rows are of another length, of the whole table or of the rows that were counted."""
     cells, text = _cells(seen.first, table), seen.first.decode("utf-8", "replace").strip()
     commas = len(cells) > table.width and table.delimiter == "," and "." not in text
     hint = ": the numbers seem to have decimal commas" if commas else ""
     return LogError(
         f"line {seen.odd[0]} holds {len(cells)} cells, and the header names {table.width} columns{hint}; "
-        f"{len(seen.odd)} of {seen.rows} rows are of another length",
+        f"{len(seen.odd)} of {'' if whole else 'the first '}{seen.rows} rows are of another length",
         evidence={
             "lines": seen.odd[:SHOWN_LINES],
             "text": text[:120],
             "rows_of_another_length": len(seen.odd),
-            "rows": seen.rows,
+            "rows" if whole else "rows_counted": seen.rows,
             "accepted_share": MOST_ODD,
         },
         remedy="write decimal points, or keep the decimal commas and separate the columns by semicolons"

@@ -112,10 +112,10 @@ def _content(lines: Sequence[str]) -> list[int]:
     return list(islice(indices, 2))
 
 
-def check_text(path: Path, header: str, encoding: str) -> int:
+def check_text(path: Path, header: bytes, encoding: str) -> int:
     """Refuse NUL bytes, other encodings, lines of a megabyte and endless comments; count repeated headers."""
     begin = comments = repeated = 0
-    again = b"\n" + header.strip().encode()
+    again = b"\n" + header
     decoder = codecs.getincrementaldecoder(UTF_8)()
     with open_utf8(path, encoding) as stream:
         while piece := stream.read(HEAD_BYTES):
@@ -137,7 +137,7 @@ def check_text(path: Path, header: str, encoding: str) -> int:
                     remedy="write one row per line",
                 )
             repeated += _count(piece, again)
-            comments += _count(piece, b"\n#")
+            comments += _count(piece, b"\n#") + _count(piece, b"\n%")
             if comments > MAX_COMMENTS:
                 raise LogError(
                     "the text holds more comments than a log has",

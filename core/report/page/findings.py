@@ -23,6 +23,8 @@ _RAW = "raw check"
 _READ = {
     "likelihood ratio": "Log-likelihood ratio statistic {}",
     "log10 p": "log10 of the p-value, corrected for all candidates: {}",
+    "log10 p between blocks": "log10 of the p-value by the scatter between parts of the log: {} (the finding "
+    "is doubtful where p exceeds 0.001)",
     "criterion difference": "Best alternative: ΔBIC {} (below 6: undecided)",
     "lead over unnamed patterns": "Best unnamed pattern: ΔBIC {} (below 0: undecided)",
     _RAW: "The raw samples show it before any model is fitted; test statistic {}",

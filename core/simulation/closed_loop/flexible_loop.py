@@ -80,10 +80,22 @@ class FlexibleLoop:
         wide[:, self._motors] = series
         return wide
 
-    def start(self, state: MotionState, inputs: Inputs) -> LoopState:
+    def start(
+        self, state: MotionState, inputs: Inputs, slopes: Matrix | None = None
+    ) -> tuple[LoopState, Matrix]:
         """Begin at the first row of a motion, with the links where the torques that follow say they are.
 
         Two numbers per spring are unknown. They are those with which the controller adds least.
+
+        Parameters
+        ----------
+        slopes
+            Derivatives of what the controller adds by these numbers, of a robot that differs by little.
+
+        Returns
+        -------
+        tuple[LoopState, Matrix]
+            The state, and the derivatives: those given, or those of this robot.
         """
         samples = slice(0, round(START_SECONDS / self.step))
         first = Inputs(inputs.feed_forward[samples], inputs.position[samples], inputs.velocity[samples])
@@ -99,13 +111,13 @@ class FlexibleLoop:
         at[:count] = -self._carried(state, first)[springs.joints] / springs.stiffness
         left = added(at)
         pushes = np.repeat(OFFSETS, count)
-        slopes: Matrix = np.column_stack(
-            [(added(at + push) - left) / size for push, size in zip(np.diag(pushes), pushes, strict=True)]
-        )
+        if slopes is None:
+            pairs = zip(np.diag(pushes), pushes, strict=True)
+            slopes = np.column_stack([(added(at + push) - left) / size for push, size in pairs])
         for number in range(START_ROUNDS):
             left = added(at) if number else left
             at -= pushes * np.linalg.lstsq(slopes * pushes, left, rcond=None)[0]
-        return self._begun(state, at)
+        return self._begun(state, at), slopes
 
     def _carried(self, state: MotionState, inputs: Inputs) -> JointVector:
         """Give about what the springs carry at the first row: torque less what the motors take."""

@@ -5,13 +5,13 @@ the real robot had. Every gap-free part begins as it was measured and is simulat
 """
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import tee
 from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from ...arrays import JointSeries, Samples
+from ...arrays import JointSeries, Matrix, Samples
 from ...signals.condition import Motion
 from ...signals.parallel import Tile
 from ...signals.segment import Segment
@@ -59,6 +59,9 @@ class SimulatedMotion:
     source: Source
     substeps: int | None = None
     """Steps of the simulation per sample; None for steps of `LONGEST_STEP` at most."""
+    slopes: dict[float, Matrix] = field(default_factory=dict)
+    """Derivatives by which flexible joints begin, by the instant of the beginning; robots that are made of
+    this one by `of` share them, as they differ by little."""
 
     @property
     def kept(self) -> int:
@@ -101,9 +104,9 @@ class SimulatedMotion:
             loop = Loop(mechanism, self.source.law(step), step, steps)
             return _Lane(segment, self.source, loop, loop.start(tile.state), none).onwards(tile)
         flexible = FlexibleLoop(mechanism, self.source.law(step), step, steps)
-        begun = flexible.start(
-            tile.state, self.source.inputs(Piece(segment, step, 0, tile.state, tile.torque))
-        )
+        inputs = self.source.inputs(Piece(segment, step, 0, tile.state, tile.torque))
+        known = self.slopes.get(segment.begin_time)
+        begun, self.slopes[segment.begin_time] = flexible.start(tile.state, inputs, known)
         return _Lane(segment, self.source, flexible, begun, none).onwards(tile)
 
 

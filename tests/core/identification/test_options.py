@@ -224,6 +224,12 @@ def test_what_would_not_act_on_free_motion_is_refused_and_windows_where_no_motio
             parse_options({"estimator": estimator, "simulation": simulation})
 
 
+def test_lists_of_whole_numbers_may_be_written_with_decimal_points():
+    asked = {"estimator": "didim", "flexible_joints": [1.0, 3], "validation": {"logs": [2.0]}}
+    options = parse_options(asked)
+    assert (options.estimate.flexible_joints, options.validation.logs) == ((1, 3), (2,))
+
+
 def test_a_diagnosis_may_hold_whole_logs_out_instead_of_blocks():
     held = parse_diagnose_options({"validation": {"fraction": 0.0, "logs": [2]}}).validation
     assert {log for log, _ in held.chosen(2)} == {1}

@@ -1,5 +1,7 @@
 """A joint's spring is found where the log shows it, and refused where it does not."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -62,6 +64,25 @@ def test_a_torque_that_is_late_or_early_in_the_log_is_measured_and_warned_of(pla
         late, deviation = found.models[-1].late
         assert late == pytest.approx(samples / run.rate, abs=0.4 / run.rate + 3.0 * deviation)
         assert any("it acted" in doubt for doubt in doubts) == (samples != 0)
+
+
+def test_the_time_of_a_late_torque_is_that_of_the_reported_model_and_open_where_the_flexible_one_is_refused():
+    run = Run(highest_hz=37.0, seconds=6.0, noise=ENCODER, torque_noise=0.3)
+    signals = recorded(Plant.with_mode(25.0), run)
+    for samples, order in ((2, "flexible"), (5, "rigid")):
+        late = log_of(moved(signals, samples))
+        found = identify_joint(robot_of(), late, JointOptions(1), no_progress)
+        answer = [model for model in found.models if model.failure is None][-1]
+        assert answer.order == order
+        doubts = joint_document(found, version="", options={})["doubts"]
+        (doubt,) = (one for one in doubts if "it acted" in one)
+        times = [float(number) for number in re.findall(r"(-?[\d.]+) ms \(", doubt)]
+        assert min(times) <= 1e3 * samples / run.rate
+        if order == "flexible":
+            assert times == [pytest.approx(1e3 * answer.late[0], rel=0.05)]
+        else:  # the spring in the rigid model looks like a longer delay
+            assert max(times) > 1e3 * samples / run.rate
+            assert "not known" in doubt
 
 
 def test_a_torque_that_no_controller_holds_between_samples_is_no_late_one():
