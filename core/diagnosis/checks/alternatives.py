@@ -5,7 +5,7 @@ estimated again. Two hypotheses whose criteria differ by less than six are undec
 Source: Burnham & Anderson, Model Selection (2002), ch. 2.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import starmap
 
@@ -27,6 +27,7 @@ from ..thresholds.search import MASKING, SEARCH, SELECTION
 from .gain import gain
 from .lack_of_fit import best_unnamed_pattern, unnamed_candidates
 from .plausible_size import has_plausible_size
+from .unnamed_event import lead_over_events
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,38 +200,13 @@ def compare_member(state: SearchState, index: int, own: Hypothesis) -> Compariso
         tuple(ambiguous),
         tuple(refuted),
         without,
-        _over_events(fitter, without, own, trials),
+        lead_over_events(fitter, without, own, trials),
     )
 
 
 def _not_left(fitter: HypothesisFitter, own: Hypothesis, trials: list[Hypothesis]) -> list[Hypothesis]:
     """Give the trials whose last member is not what the member that is judged leaves."""
     return [trial for trial in trials if not is_masked_by_last(fitter, own, trial.members[-1])]
-
-
-def _over_events(
-    fitter: HypothesisFitter, without: Hypothesis, own: Hypothesis, trials: Sequence[Hypothesis]
-) -> float:
-    """Give a lasting member's BIC difference less that of the best event in its place that is no contact.
-
-    Its span and wrench fit, but no listed cause can be it: something else happened then. Where it explains
-    much more than the member, the member's evidence is from that span, and not from all the log. Infinite
-    where there is none, or each explains as much beside the other.
-    """
-    if own.members[-1].cause.traits.transient:
-        return np.inf
-    events = [trial for trial in trials if trial.members[-1].cause.traits.transient and not trial.admissible]
-    competing = [trial for trial in events if _compete(fitter, without, own, trial)]
-    most = max((bic_gain(without, trial) for trial in competing), default=-np.inf)
-    return float(bic_gain(without, own) - most)
-
-
-def _compete(fitter: HypothesisFitter, without: Hypothesis, own: Hypothesis, trial: Hypothesis) -> bool:
-    """Tell whether one of the last members of two hypotheses explains less beside the other."""
-    if not keeps_beside(fitter, without, own, trial.members[-1], likelihood_ratio(without, trial)):
-        return True
-    beside = fitter.fit((*trial.members, own.members[-1]), trial)
-    return likelihood_ratio(trial, beside) < MASKING.kept * likelihood_ratio(without, own)
 
 
 def _trials(state: SearchState, without: Hypothesis) -> list[Hypothesis]:
