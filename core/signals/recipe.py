@@ -148,7 +148,7 @@ def choose_recipe(log: JointLog, options: FilterOptions, prismatic: Mask | None 
 
 def _choose(log: JointLog, options: FilterOptions, prismatic: Mask) -> Recipe:
     rate, survey = log.rate_hz, survey_of(log, options.median_order)
-    bands, speeds, slowest = survey.bands, survey.speeds, min(survey.slowest, *segment_rates(log))
+    bands, speeds, slowest = survey.bands, survey.speeds, min([survey.slowest, *segment_rates(log)])
     still_speed = _still_speed(survey, prismatic)
     moving = bands[speeds > still_speed]
     band = float(moving.max()) if len(moving) else 1.0

@@ -34,7 +34,7 @@ NAMED = {
         "diagnosis/causes/torque_ripple": "MOST BAND_SHARE",
         "diagnosis/causes/torque_saturation": "SHARES",
         "diagnosis/checks/change_points": "SMOOTHED FAR",
-        "diagnosis/checks/unnamed_pattern": "WAVES SLOWEST QUICKEST STEP FINER SWINGS",
+        "diagnosis/checks/unnamed_pattern": "WAVES SLOWEST QUICKEST STEP FINER SWINGS SWITCHES",
         "diagnosis/search/alignment": "PARTS",
         "diagnosis/search/profile_likelihood": "AROUND FINER",
     },

@@ -27,6 +27,7 @@ from ..thresholds.search import MASKING, SEARCH, SELECTION
 from .gain import gain
 from .lack_of_fit import best_unnamed_pattern, unnamed_candidates
 from .plausible_size import has_plausible_size
+from .unnamed_event import lead_over_events
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +47,8 @@ class Comparison:
     refuted: tuple[Alternative, ...]
     without: Hypothesis
     over_unnamed: float = np.inf
-    """The same over the best unnamed pattern on its joints; infinite where none explains anything."""
+    """The same over the best unnamed pattern on its joints, or the best unnamed event; infinite where none
+    explains anything."""
 
 
 def compare_alternatives(found: SearchState) -> tuple[SearchState, list[Comparison]]:
@@ -92,7 +94,8 @@ def _comparison(
     state: SearchState, index: int, refitted: Hypothesis, unnamed: tuple[Candidate, ...]
 ) -> Comparison:
     own = compare_member(state, index, refitted)
-    return replace(own, over_unnamed=_over_unnamed(state.fitter, own, unnamed))
+    pattern = _over_unnamed(state.fitter, own, unnamed)
+    return replace(own, over_unnamed=min(own.over_unnamed, pattern))
 
 
 def _is_inadmissible(state: SearchState, index: int) -> bool:
@@ -172,9 +175,10 @@ def compare_member(state: SearchState, index: int, own: Hypothesis) -> Compariso
     member, without = chosen.members[index], fitter.fit_without_each(chosen)[index]
     ambiguous, refuted, margin = [], [], np.inf
     own_gain, own_ratio = bic_gain(without, own), likelihood_ratio(without, own)
-    for trial in _trials(state, without):
+    trials = _not_left(fitter, own, _trials(state, without))
+    for trial in trials:
         other, ratio = trial.members[-1], likelihood_ratio(without, trial)
-        if keeps_beside(fitter, without, own, other, ratio) or is_masked_by_last(fitter, own, other):
+        if keeps_beside(fitter, without, own, other, ratio):
             continue
         why = _objection(fitter, without, trial)
         settled = _at_its_own_point(state, trial, why)
@@ -188,8 +192,21 @@ def compare_member(state: SearchState, index: int, own: Hypothesis) -> Compariso
         elif ratio > ALTERNATIVES.least_ratio_listed * own_ratio:
             refuted.append(_refuted_alternative(other, ratio, own_ratio, why))
     return Comparison(
-        index, member, own_ratio, own_gain, float(margin), tuple(ambiguous), tuple(refuted), without
+        index,
+        member,
+        own_ratio,
+        own_gain,
+        float(margin),
+        tuple(ambiguous),
+        tuple(refuted),
+        without,
+        lead_over_events(fitter, without, own, trials),
     )
+
+
+def _not_left(fitter: HypothesisFitter, own: Hypothesis, trials: list[Hypothesis]) -> list[Hypothesis]:
+    """Give the trials whose last member is not what the member that is judged leaves."""
+    return [trial for trial in trials if not is_masked_by_last(fitter, own, trial.members[-1])]
 
 
 def _trials(state: SearchState, without: Hypothesis) -> list[Hypothesis]:

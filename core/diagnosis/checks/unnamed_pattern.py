@@ -28,6 +28,8 @@ STEP = 0.5
 FINER = 8
 SWINGS = tuple(float(rate) for rate in np.geomspace(0.7, 4.0, 12))
 """Rates of a swing, Hz."""
+SWITCHES = 16
+"""Parts of a log between which friction may switch; refined to the row."""
 _NAMES = tuple(PATTERNS)
 
 
@@ -43,18 +45,23 @@ class UnnamedPatternCause(OwnJointCause):
 
     def grid(self, at: Setting) -> Sequence[Scalars]:
         """List all patterns with their numbers."""
-        return [
-            _scalars(name, numbers)
-            for name, numbers in _patterns(at.dataset.joints, at.joint, _seconds(at.dataset))
-        ]
+        patterns = _patterns(at.dataset.joints, at.joint, _seconds(at.dataset))
+        return [_scalars(name, numbers) for name, numbers in (*patterns, *_switches(at.dataset))]
 
     def finer(self, dataset: Dataset, scalars: Scalars) -> list[Scalars]:
-        """List numbers around those of a grid point: higher harmonics need a finer rate than the grid's."""
+        """List numbers around those of a grid point.
+
+        Higher harmonics need a finer rate than the grid's. A switch may be at any row: between it and a wrong
+        instant the torque is wrong by all of the change, so that a strong one would fail on held-out rows.
+        """
         name, numbers = _read(scalars)
-        if name != "clock":
-            return [scalars]
-        step = STEP / _seconds(dataset) / FINER
-        return [_scalars(name, (numbers[0] + step * shift,)) for shift in range(-FINER, FINER + 1)]
+        if name == "clock":
+            step = STEP / _seconds(dataset) / FINER
+            return [_scalars(name, (numbers[0] + step * shift,)) for shift in range(-FINER, FINER + 1)]
+        if name == "friction":
+            near = np.abs(dataset.time - numbers[0]) <= _between_switches(dataset)
+            return [scalars, *(_scalars(name, (instant,)) for instant in dataset.time[near].tolist())]
+        return [scalars]
 
     def switching(self, instants: Vector) -> Scalars:
         """Give the scalars of a torque that switches between two levels at these instants, s."""
@@ -90,6 +97,18 @@ def _patterns(joints: int, own: int, seconds: float) -> tuple[tuple[str, Numbers
     ]
     out += [("swing", (rate,)) for rate in SWINGS]
     return tuple(out)
+
+
+def _switches(dataset: Dataset) -> list[tuple[str, Numbers]]:
+    """Give the instants at which friction may switch; several logs have none in common."""
+    if dataset.log.any():
+        return []
+    begin, step = float(dataset.time.min()), _between_switches(dataset)
+    return [("friction", (begin + step * number,)) for number in range(1, SWITCHES)]
+
+
+def _between_switches(dataset: Dataset) -> float:
+    return float(np.ptp(dataset.time)) / SWITCHES
 
 
 def _seconds(dataset: Dataset) -> float:
@@ -131,6 +150,8 @@ def _pattern_words(pattern: str, numbers: Numbers) -> str:
         )
     if pattern == "clock":
         return f"a period of {1.0 / numbers[0]:.3g} s, independent of the motion"
+    if pattern == "friction":
+        return f"its own friction, which switches at {numbers[0]:.3g} s"
     if pattern == "levels":
         return "two levels between which it switches by itself"
     return f"an oscillation at about {numbers[0]:.2g} Hz, independent of the motion"

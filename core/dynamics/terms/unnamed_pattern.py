@@ -1,8 +1,9 @@
 """Give patterns without a physical model: what a residual may follow where no known effect explains it.
 
-Products of speeds, waves over another joint's angle, waves in time, an oscillation at its own rate, and two
-levels: a family wide enough to detect lack of fit, and where, without a physical name. Source: Kennedy &
-O'Hagan, J. R. Stat. Soc. B 63, 2001, for a discrepancy without a name.
+Products of speeds, waves over another joint's angle, waves in time, an oscillation at its own rate, two
+levels, and friction that switches at an instant: a family wide enough to detect lack of fit, and where,
+without a physical name. Source: Kennedy & O'Hagan, J. R. Stat. Soc. B 63, 2001, for a discrepancy without a
+name.
 """
 
 from collections.abc import Callable, Mapping
@@ -20,6 +21,7 @@ from .effect import OneJointTerm, step_of
 HARMONICS = 3
 SWING_DAMPING = 0.05
 Numbers = tuple[float, ...]
+_COUNTS = {"speeds": 1, "angle": 2, "clock": 2 * HARMONICS, "swing": 2, "levels": 1, "friction": 2}
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +32,8 @@ class Trace(OneJointTerm):
     """``speeds``: product of the speeds of joints a and b. ``angle``: cosine and sine of h times joint a's
     angle, times a factor of the own speed. ``clock``: a period of 1 / f seconds with its harmonics.
     ``swing``: deflection and rate of an oscillator at f Hz, driven by the own acceleration. ``levels``: plus
-    or minus one, with a change of sign at each of the instants, s."""
+    or minus one, with a change of sign at each of the instants, s. ``friction``: own Coulomb and viscous
+    friction from an instant on, s."""
     numbers: Numbers
     kind = "unlisted"
     has_memory = True
@@ -38,9 +41,9 @@ class Trace(OneJointTerm):
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List a number per column."""
         del robot
-        count = {"speeds": 1, "angle": 2, "clock": 2 * HARMONICS, "swing": 2, "levels": 1}[self.pattern]
         return tuple(
-            Parameter(f"trace_{index}", self.joint, self.joint, "N m", None) for index in range(count)
+            Parameter(f"trace_{index}", self.joint, self.joint, "N m", None)
+            for index in range(_COUNTS[self.pattern])
         )
 
     @property
@@ -102,6 +105,11 @@ def _levels(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
     return [np.where(changes % 2, -1.0, 1.0)]
 
 
+def _friction(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
+    after, velocity = _time(state) >= numbers[0], state.velocity[:, own]
+    return [np.where(after, np.sign(velocity), 0.0), np.where(after, velocity, 0.0)]
+
+
 def _time(state: MotionState) -> Samples:
     return np.arange(len(state.position), dtype=float) if state.time is None else state.time
 
@@ -112,4 +120,5 @@ PATTERNS: Mapping[str, Callable[[int, Numbers, MotionState], list[Samples]]] = {
     "clock": _clock,
     "swing": _swing,
     "levels": _levels,
+    "friction": _friction,
 }

@@ -183,6 +183,13 @@ def test_a_stretch_between_gaps_that_is_too_short_is_left_out():
     assert at.max() < 10.0
 
 
+def test_a_log_without_a_stretch_that_is_long_enough_is_refused_in_words():
+    time = np.concatenate([15.0 * part + np.arange(100) / RATE_HZ for part in range(4)])
+    swing = Multisine.random(np.random.default_rng(8), 1)
+    with pytest.raises(LogError, match="no stretch of the log between its gaps is long enough"):
+        _conditioned(log_of(time, swing.position(time)))
+
+
 def _pausing() -> tuple[np.ndarray, np.ndarray]:
     """Let the second joint rest from 10 to 12 s, and go on from where it is."""
     time, swing = _swing()

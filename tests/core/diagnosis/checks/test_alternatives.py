@@ -8,6 +8,7 @@ import pytest
 from tests.core.diagnosis.made_up import candidate, made_up, nothing_found, on_joint
 from tests.core.diagnosis.scenes import fitter_of, measured_arm
 from tests.core.diagnosis.waves import wave_cause, wave_effect
+from veritorque.core.diagnosis.causes.friction_temperature import FrictionTemperature
 from veritorque.core.diagnosis.causes.masking import MASKED_BY, Masking
 from veritorque.core.diagnosis.checks.alternatives import Comparison, compare_alternatives
 from veritorque.core.diagnosis.search.fitter import HypothesisFitter
@@ -107,3 +108,33 @@ def test_a_name_that_a_pattern_without_one_beats_by_far_is_given_up(spoilt, kept
     cause = made_up("alike", columns)
     fitter = fitter_of(measured_arm(on_joint(product)), (cause,))
     assert compared((fitter, nothing_found(fitter)), candidate(cause))[0] == kept
+
+
+def blow(state):
+    return 1.0 * ((state.time > 6.0) & (state.time < 6.4))
+
+
+def twice(state):
+    """Act when the blow does and later again, on no held-out row: like a cause that a motion hardly shows."""
+    return blow(state) + 0.7 * ((state.time > 10.0) & (state.time < 10.4))
+
+
+@pytest.mark.parametrize(("hidden", "kept"), [(blow, []), (twice, ["lasting"])])
+def test_a_lasting_cause_whose_evidence_is_one_event_that_is_no_contact_is_given_up(hidden, kept):
+    lasting = made_up("lasting", lambda state, _: [twice(state)])
+    event = made_up("event", lambda state, _: [blow(state)], transient=True, allowed=lambda _: False)
+    fitter = fitter_of(measured_arm(on_joint(hidden)), (lasting, event))
+    assert compared((fitter, nothing_found(fitter)), candidate(lasting))[0] == kept
+
+
+@pytest.mark.parametrize("change", [0.1, 0.4, 1.6])
+def test_friction_that_falls_at_once_is_no_warm_up(change):
+    def dragging(state):
+        return change * np.sign(state.velocity[:, 1]) * (state.time < 7.3)
+
+    cause = FrictionTemperature()
+    fitter = fitter_of(measured_arm(on_joint(dragging)), (cause,))
+    none = nothing_found(fitter)
+    best = fitter.scan(none)[0].candidate
+    assert best.site == (2,)
+    assert compared((fitter, none), best)[0] == []

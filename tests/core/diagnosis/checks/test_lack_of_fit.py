@@ -11,6 +11,8 @@ from veritorque.core.diagnosis.search.hypothesis import Hypothesis
 
 RHYTHM = 0.4
 """Repetitions of something beside the robot, Hz."""
+RELEASED = 7.3
+"""When a brake lets go, s."""
 SWING, DAMPING = 1.9, 0.05
 """Rate of something loose on the link, Hz, and its damping ratio."""
 
@@ -36,10 +38,16 @@ def swing(state):
     return 5.0 * deflection
 
 
+def brake_that_lets_go(state):
+    """Drag a brake for some time, which no warm-up ends at once."""
+    return np.where(state.time < RELEASED, np.sign(state.velocity[:, 1]), 0.0)
+
+
 WORDS = {
     product: "the product of the speeds of joints 1 and 3",
     wave_of_another_joint: "a wave over joint 1's angle (2 per revolution) with the sign of its own speed",
     beat: "a period of 2.5 s, independent of the motion",
+    brake_that_lets_go: "its own friction, which switches at 7.3 s",
     swing: "an oscillation at about 1.8 Hz, independent of the motion",
 }
 

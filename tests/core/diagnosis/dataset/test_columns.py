@@ -5,7 +5,7 @@ import numpy as np
 from tests.core.diagnosis.scenes import eventful_scene
 from veritorque.core.dynamics.terms.unnamed_pattern import FACTORS, Trace
 
-NUMBERS = {"speeds": (1.0, 2.0), "clock": (0.7,), "levels": (3.0, 5.0), "swing": (1.5,)}
+NUMBERS = {"speeds": (1.0, 2.0), "clock": (0.7,), "levels": (3.0, 5.0), "swing": (1.5,), "friction": (4.0,)}
 PATTERNS = [*NUMBERS.items(), *(("angle", (2.0, 3.0, float(factor))) for factor in range(len(FACTORS)))]
 
 
