@@ -17,6 +17,8 @@ from ..estimate.system import System, column_scale
 from ..regressor.memory import Memory
 
 _RANK_TOLERANCE = 1e-8
+_RESOLVED = 1e-12
+"""Eigenvalue of W'W over the largest, columns of unit size, below which rounding may be a part of it."""
 _ROUNDS = 3
 INTERVAL_95 = 1.959964
 
@@ -91,15 +93,15 @@ def infer(
     """
     information = system.triangle.T @ system.triangle
     size = len(information)
-    bread, factors = inverse_information(information), np.ones(len(memory))
-    covariance, meat = np.zeros((size, size)), np.zeros((size, size))
+    resolved, factors = inverse_information(information, _RESOLVED), np.ones(len(memory))
+    taken, meat = np.zeros((size, size)), np.zeros((size, size))
     for _ in range(_ROUNDS):
         meat = np.zeros((size, size))
         for joint, (products, columns, noise) in enumerate(
             zip(memory, columns_of, system.noise, strict=True)
         ):
             index = np.ix_(columns, columns)
-            autocovariance = _true_autocovariance(products, base[columns], covariance[index])
+            autocovariance = _true_autocovariance(products, base[columns], taken[index])
             meat[index] += _own_spread(products, autocovariance) / noise**4
             factors[joint] = _memory_factor(autocovariance)
         if system.carried is not None:
@@ -108,7 +110,7 @@ def infer(
             known = prior.rows.shape[1]
             meat[:known, :known] += prior.rows.T @ prior.rows
         meat = _no_negative(meat, column_scale(system.triangle))
-        covariance = _sandwich(bread, meat)
+        taken = _sandwich(resolved, meat)
     return Inference(information, meat, _open_share(system.triangle), factors)
 
 
@@ -129,6 +131,8 @@ def _own_spread(products: Memory, autocovariance: Vector) -> SquareMatrix:
 
 def _true_autocovariance(products: Memory, values: BaseParameters, covariance: SquareMatrix) -> Vector:
     """Estimate the noise's autocovariance from the residual's, which the fit has made smaller.
+
+    The covariance leaves out directions that rounding may have made: what they take would be their inverse.
 
     A fit takes sum_t w(t)' C w(t + l) out of lag l, C being the covariance of what was fitted; for
     independent samples and lag 0 that is the n - d of the textbooks.
@@ -171,9 +175,15 @@ def subset(precision: Inference, chosen: Indices, triangle: Matrix) -> Inference
     )
 
 
-def inverse_information(information: SquareMatrix) -> SquareMatrix:
-    """Give the inverse within the directions in which the matrix is not zero."""
-    scale, values, vectors = _excited(information)
+def inverse_information(information: SquareMatrix, least: float = _RANK_TOLERANCE**2) -> SquareMatrix:
+    """Give the inverse within the directions in which the matrix is not zero.
+
+    Parameters
+    ----------
+    least
+        Eigenvalue over the largest, columns of unit size, from which on a direction counts.
+    """
+    scale, values, vectors = _excited(information, least)
     return np.asarray(vectors / values @ vectors.T / np.outer(scale, scale))
 
 
@@ -181,12 +191,12 @@ def _sandwich(bread: SquareMatrix, meat: SquareMatrix) -> SquareMatrix:
     return np.asarray(bread @ meat @ bread)
 
 
-def _excited(information: SquareMatrix) -> tuple[Weights, Weights, Matrix]:
+def _excited(information: SquareMatrix, least: float = _RANK_TOLERANCE**2) -> tuple[Weights, Weights, Matrix]:
     """Give the columns' sizes, and eigenvalues and -vectors of what remains, without those that are zero."""
     size = np.sqrt(np.diag(information))
     scale = np.where(size > 0.0, size, 1.0)
     values, vectors = np.linalg.eigh(information / np.outer(scale, scale))
-    excited = values > _RANK_TOLERANCE**2 * values[-1]
+    excited = values > least * values[-1]
     return scale, values[excited], vectors[:, excited]
 
 

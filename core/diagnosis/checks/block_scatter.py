@@ -35,10 +35,9 @@ def block_log_p(fitter: HypothesisFitter, chosen: Hypothesis, index: int, statis
     scale = np.sqrt(np.maximum(np.diag(model), np.finfo(float).tiny))
     scatter = blocks / (blocks - 1) * (changes / scale).T @ (changes / scale)
     over_noise = float(np.trace(np.linalg.solve(model / np.outer(scale, scale), scatter)))
+    over_noise = max(over_noise, width)  # no effect is known better than its noise lets it be
     least = max(min(statistic, wald_statistic(chosen, index)), 0.0)
-    chance = float(
-        fdtrc(width, freedom, least / max(over_noise, np.finfo(float).tiny) * freedom / (blocks - 1))
-    )
+    chance = float(fdtrc(width, freedom, least / over_noise * freedom / (blocks - 1)))
     return float(min(np.log(max(chance, np.finfo(float).tiny)) + np.log(member.trials * fitter.kinds), 0.0))
 
 

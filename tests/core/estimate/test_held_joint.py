@@ -114,7 +114,9 @@ def test_channels_that_are_exchanged_are_found_though_one_joint_stands():
     assert "exchanged" in conflicts.found[0].hypothesis.statement
 
 
-def test_a_log_of_one_joint_of_a_whole_arm_ends_in_an_answer():
+@pytest.mark.parametrize("solver", ["clarabel", "cvxpy"])
+def test_a_log_of_one_joint_of_a_whole_arm_ends_in_an_answer(solver):
+    """Deviations do not depend on the last digits of what is left open, in which solvers differ."""
     own = scene("ur10e")
     signals = own.world.signals(())
     position = np.where(np.arange(6) == 1, signals.position, 0.4)
@@ -124,6 +126,6 @@ def test_a_log_of_one_joint_of_a_whole_arm_ends_in_an_answer():
     torque = torque + 1e-3 * torque.std(axis=0) * np.random.default_rng(0).normal(size=torque.shape)
     noisy = position + ENCODER * np.random.default_rng(1).normal(size=position.shape)
     log = log_from_arrays("one", signals.time, noisy, torque)
-    request = IdentifyRequest(own.world.arm.robot, (log,), {"bootstrap": {"draws": 0}})
+    request = IdentifyRequest(own.world.arm.robot, (log,), {"bootstrap": {"draws": 0}, "solver": solver})
     rows = {row["name"]: row for row in identify(request)["base_parameters"]}
     assert 0.0 < rows["FV2"]["standard_deviation"] < 0.05 * rows["FV2"]["value"]
