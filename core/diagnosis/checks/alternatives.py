@@ -223,13 +223,13 @@ def _trials(state: SearchState, without: Hypothesis) -> list[Hypothesis]:
     return sorted(whole, key=lambda trial: -bic_gain(without, trial))
 
 
-def _at_its_own_point(state: SearchState, trial: Hypothesis, why: str) -> Hypothesis:
+def _at_its_own_point(state: SearchState, trial: Hypothesis, objection: str) -> Hypothesis:
     """Fit an alternative that can be one where it is linearised at itself, unless it is worse there.
 
     Where robot or signals are wrong, columns are derivatives of the model's torque. Those of a zero that is
     off by some degrees differ at a model with another cause in its place. A further term has its own columns.
     """
-    if why or trial.members[-1].cause.cure == "term":
+    if objection or trial.members[-1].cause.cure == "term":
         return trial
     moved = state.linearised_at(trial).chosen
     return max(trial, moved if moved.admissible else trial, key=lambda one: one.fit.log_likelihood)
