@@ -17,7 +17,7 @@ from ..dynamics.prediction import Prediction
 from ..errors import ExcitationError
 from ..robot.model import INERTIAL_SYMBOLS
 from .causes.sample_check import disturbance
-from .dataset.dataset import Dataset, identification_width
+from .dataset.dataset import Dataset, identification_width, judged_width
 from .regression.ar_noise import ARNoise, run_indices
 from .thresholds.dataset import BAND
 
@@ -39,6 +39,10 @@ def limit_bandwidth(dataset_at: Callable[[float], Fitted]) -> Fitted:
     width = BAND.over_motion
     fitted = dataset_at(width)
     narrowest = min(BAND.narrowest, identification_width(fitted[0]))
+    widest = max(narrowest, judged_width(fitted[0]))
+    if width > widest:
+        fitted = _narrowed(dataset_at, fitted, widest)
+        width = fitted[0].width
     even, even_shares = position_noise_torque(fitted, over_stamps=False)
     for _ in range(BAND.narrowings):
         dataset, share = fitted[0], float(np.max(even_shares))
@@ -59,11 +63,14 @@ def limit_bandwidth(dataset_at: Callable[[float], Fitted]) -> Fitted:
 
 
 def _narrowed(dataset_at: Callable[[float], Fitted], fitted: Fitted, width: float) -> Fitted:
-    """Narrow a data set; only to the usual least width, or not at all, where too few rows would be left."""
-    try:
-        return dataset_at(width)
-    except ExcitationError:
-        return dataset_at(BAND.narrowest) if fitted[0].width > BAND.narrowest > width else fitted
+    """Narrow a data set; by less, or not at all, where too few rows would be left."""
+    actual = fitted[0].band_hz / fitted[0].motion_band_hz
+    for less in BAND.retreats:
+        try:
+            return dataset_at(width * (actual / width) ** less)
+        except ExcitationError:
+            continue
+    return fitted
 
 
 def position_noise_torque(fitted: Fitted, *, over_stamps: bool) -> tuple[JointSeries, JointVector]:

@@ -115,6 +115,8 @@ class Recipe:
     """Speed per joint, and the speed below which it counts as standing (rad/s or m/s)."""
     position_noise: JointVector
     """RMS of the white noise of every joint's positions (rad or m)."""
+    outweighed_hz: float
+    """Frequency up to which the joints' accelerations hold more motion than noise of the positions."""
     reason: str
     """Why these cut-offs, in one sentence."""
 
@@ -154,7 +156,9 @@ def _choose(log: JointLog, options: FilterOptions, prismatic: Mask) -> Recipe:
     band = float(moving.max()) if len(moving) else 1.0
     nyquist = 0.5 * min(rate, slowest)
     highest = min(0.4 * rate, 0.9 * nyquist)
-    wanted, why = _parallel_cutoff(survey, band, speeds > still_speed, rate)
+    quiet = max(noise_cutoff(survey.positions, rate, band, speeds > still_speed), LEAST_OVER_MOTION * band)
+    outweighed = quiet * (OUTWEIGHED / ATTENUATION) ** 0.2
+    wanted, why = _parallel_cutoff(band, quiet, outweighed)
     cutoff = _or_default(options.cutoff_hz, min(wanted, highest / 2.0))
     position = _or_default(options.position_cutoff_hz, min(POSITION_OVER_PARALLEL * cutoff, highest))
     for name, value in (("cutoff_hz", cutoff), ("position_cutoff_hz", position)):
@@ -176,6 +180,7 @@ def _choose(log: JointLog, options: FilterOptions, prismatic: Mask) -> Recipe:
         rms_speed=speeds,
         still_speed=still_speed,
         position_noise=survey.noise,
+        outweighed_hz=outweighed,
         reason=(
             f"parallel filter at {cutoff:.3g} Hz ({reason}), positions at {position:.3g} Hz,"
             f" one sample in {decimation} kept"
@@ -222,11 +227,10 @@ def _still_speed(survey: Survey, prismatic: Mask) -> JointVector:
     return still
 
 
-def _parallel_cutoff(survey: Survey, band: float, moving: Mask, rate_hz: float) -> tuple[float, str]:
+def _parallel_cutoff(band: float, quiet: float, outweighed: float) -> tuple[float, str]:
     """Choose the parallel filter's cut-off (Hz) by the motion's band and the noise of positions; say why."""
     wide = PARALLEL_OVER_MOTION * band
-    quiet = max(noise_cutoff(survey.positions, rate_hz, band, moving), LEAST_OVER_MOTION * band)
-    if wide <= quiet * (OUTWEIGHED / ATTENUATION) ** 0.2:
+    if wide <= outweighed:
         return wide, f"{PARALLEL_OVER_MOTION:g} times the motion's band of {band:.3g} Hz"
     return quiet, (
         f"above it the noise of positions would attenuate what is fitted by more than"

@@ -22,6 +22,7 @@ from .command import command_evidence
 from .confidence import confidence, predictors
 from .figure import curve
 from .gain import gain
+from .noise_worth import may_be_noise, noise_evidence
 from .plausible_size import has_known_size
 
 
@@ -52,7 +53,8 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
     at = Setting(dataset, fitter.operating_point, member.site, member.scalars)
     scattered = _between_blocks(fitter, chosen, index, own)
     represented = cause.represented(at, solved) and has_known_size(cause, solved)
-    doubtful = own.margin < 0.0 or not represented or _scatters(scattered)
+    noise = noise_evidence(fitter, chosen, own)
+    doubtful = own.margin < 0.0 or not represented or _scatters(scattered) or may_be_noise(own, noise)
     return Finding(
         cause=cause.id,
         title=cause.title,
@@ -68,6 +70,7 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
             *_evidence(own, log_p, member.trials),
             *_on_holdout(fitter, chosen, index, own),
             *scattered,
+            *noise,
             *command_evidence(dataset.motions, cause.id, member.site),
         ),
         ambiguous_with=own.ambiguous,

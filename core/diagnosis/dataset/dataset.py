@@ -195,6 +195,12 @@ def identification_width(dataset: Dataset) -> float:
     return min(recipe.cutoff_hz / recipe.motion_band_hz for recipe in recipes)
 
 
+def judged_width(dataset: Dataset) -> float:
+    """Give the ratio of the band in which noise of positions does not drown the motion to the motion's."""
+    beyond = BAND.drowned**0.2  # the power of an acceleration's noise grows with the fifth power of a band
+    return min(beyond * motion.recipe.outweighed_hz / motion.recipe.motion_band_hz for motion in dataset.motions)
+
+
 def later_torque(dataset: Dataset, seconds: float) -> JointSeries:
     """Give a data set's torque, taken so many seconds later: rows x joints, N m or N."""
     share = _share([motion.log.duration for motion in dataset.motions])

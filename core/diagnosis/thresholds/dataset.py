@@ -32,6 +32,11 @@ class Band:
     with the square of frequency, its mean square in a band with the fifth power of the band's edge."""
     most_narrowing: float = 0.85
     """Largest factor of one narrowing."""
+    drowned: float = 1000.0
+    """Ratio of noise to motion in the power of an acceleration from which residuals tell nothing: a random
+    direction of friction outweighs all. It is 140 on a measured pendulum whose causes are named."""
+    retreats: tuple[float, ...] = (0.0, 0.5, 0.75)
+    """Powers of the narrowing that is given up, tried in turn where too few rows would be left."""
     narrowings: int = 10
     """Narrowings at most: enough for a fifth of the widest band, and mostly for the identification's."""
     stamp_deviations: float = 6.0
