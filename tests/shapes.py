@@ -66,7 +66,11 @@ def first_calls(check: Callable[..., Any]) -> Callable[..., Any]:
         return _unchecked(module, name, of_result=of_result)
     if of_result:
         RESULTS.add((module, name))
-    counter = COUNTERS.setdefault((module, name, of_result), Counter(module, name))
+    return _counted(check, COUNTERS.setdefault((module, name, of_result), Counter(module, name)))
+
+
+def _counted(check: Callable[..., Any], counter: Counter) -> Callable[..., Any]:
+    """Make the check when it is first needed, and no more when it was needed often enough."""
     checked: Callable[..., Any] | None = None
 
     def counted(*arguments: Any, **options: Any) -> Any:
@@ -104,7 +108,7 @@ def _has_shape(annotation: Any) -> bool:
 
 
 def _unchecked(module: str, name: str, *, of_result: bool) -> Callable[..., Any]:
-    """Check nothing of a function's arguments or result, and nothing at all where its result has no shape either.
+    """Check nothing of a function's arguments or result, and nothing at all where neither has a shape.
 
     The check of a result is made before that of the arguments.
     """
