@@ -9,7 +9,7 @@ import tempfile
 import time
 import urllib.request
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -40,9 +40,37 @@ class Running:
         return {"kind": "identify", "robot": ROBOT, "logs": [self.log], "options": options}
 
 
+_shared: tuple[ExitStack, dict[str, Running]] | None = None
+
+
+@contextmanager
+def shared_services() -> Iterator[None]:
+    """Let benchmarks with equal settings use one service, where it is not their figures that are wanted."""
+    global _shared  # noqa: PLW0603  # benchmarks start their services themselves
+    with ExitStack() as running:
+        _shared = (running, {})
+        try:
+            yield
+        finally:
+            _shared = None
+
+
 @contextmanager
 def running_service(**settings: object) -> Iterator[Running]:
     """Start the service in a directory of its own, and stop it afterwards."""
+    if _shared is None:
+        with _started(settings) as service:
+            yield service
+        return
+    running, known = _shared
+    name = repr(sorted(settings.items()))
+    if name not in known:
+        known[name] = running.enter_context(_started(settings))
+    yield known[name]
+
+
+@contextmanager
+def _started(settings: dict[str, object]) -> Iterator[Running]:
     with tempfile.TemporaryDirectory() as directory, socket.create_server(("127.0.0.1", 0)) as listener:
         port = int(listener.getsockname()[1])
         listener.close()

@@ -3,7 +3,8 @@
 A check costs a tenth of a millisecond, which in a whole diagnosis was a third of the time. A law over drawn
 cases is checked in every call: its shapes differ from one case to the next. To make a check costs a
 millisecond: it is made when it is first needed, which for a function inside another is in its first calls,
-too, and not whenever it is defined anew.
+too, and not whenever it is defined anew. Arguments or results of which none is an array have no shape, and
+their types are what mypy proves: a function with neither is never checked.
 """
 
 import inspect
@@ -11,9 +12,10 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from types import FunctionType
-from typing import Any
+from typing import Any, get_args
 
 from beartype import beartype
+from jaxtyping import AbstractArray
 
 CALLS = 10
 """How often a function is checked in a test."""
@@ -45,6 +47,8 @@ class Budget:
 BUDGET = Budget()
 COUNTERS: dict[tuple[str, str, bool], Counter] = {}
 """Of every function by module and name, of its arguments and of its result."""
+RESULTS: set[tuple[str, str]] = set()
+"""Functions by module and name whose results have shapes."""
 
 
 def first_calls(check: Callable[..., Any]) -> Callable[..., Any]:
@@ -58,7 +62,15 @@ def first_calls(check: Callable[..., Any]) -> Callable[..., Any]:
     if of_result:
         check.__annotations__ = {"return": check.__annotations__["return"]}
     module, name = check.__module__, check.__qualname__
-    counter = COUNTERS.setdefault((module, name, of_result), Counter(module, name))
+    if not any(map(_has_shape, check.__annotations__.values())):
+        return _unchecked(module, name, of_result=of_result)
+    if of_result:
+        RESULTS.add((module, name))
+    return _counted(check, COUNTERS.setdefault((module, name, of_result), Counter(module, name)))
+
+
+def _counted(check: Callable[..., Any], counter: Counter) -> Callable[..., Any]:
+    """Make the check when it is first needed, and no more when it was needed often enough."""
     checked: Callable[..., Any] | None = None
 
     def counted(*arguments: Any, **options: Any) -> Any:
@@ -84,6 +96,31 @@ def start_test(*, of_a_law: bool) -> None:
         counter.calls = 0
     BUDGET.called.clear()
     BUDGET.calls = None if of_a_law else CALLS
+
+
+def _has_shape(annotation: Any) -> bool:
+    """Tell whether an annotation names an array; one that is still a text may."""
+    if isinstance(annotation, list):  # the arguments of a callable
+        return any(map(_has_shape, annotation))
+    if isinstance(annotation, type) and issubclass(annotation, AbstractArray):
+        return True
+    return isinstance(annotation, str) or any(map(_has_shape, get_args(annotation)))
+
+
+def _unchecked(module: str, name: str, *, of_result: bool) -> Callable[..., Any]:
+    """Check nothing of a function's arguments or result, and nothing at all where neither has a shape.
+
+    The check of a result is made before that of the arguments.
+    """
+    spared = not of_result and (module, name) not in RESULTS
+
+    def unchecked(*_: Any, **__: Any) -> Any:
+        nonlocal spared
+        if spared:
+            Counter(module, name).let(unchecked=True)
+            spared = False
+
+    return unchecked
 
 
 def _function(module: str, name: str) -> FunctionType | None:

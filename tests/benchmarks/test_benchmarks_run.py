@@ -9,6 +9,7 @@ from benchmarks import coverage, hour, nelder_mead, regressor
 from benchmarks.__main__ import NAMES
 from benchmarks.demo_log import demo_log, demo_robot
 from benchmarks.figures import processor_seconds
+from benchmarks.running import shared_services
 from benchmarks.scene import smooth_motion, yumi_arm
 from veritorque.core.log.reader import read_log
 from veritorque.core.study import IdentifyRequest, identify_in_full
@@ -17,9 +18,16 @@ OWN = ("hour", "coverage", "nelder_mead", "estimators")
 """Benchmarks that have tests of their own."""
 
 
+@pytest.fixture(scope="module")
+def shared():
+    """Services that several benchmarks use, since it is not speed that is wanted here."""
+    with shared_services():
+        yield
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [name for name in NAMES if name not in OWN])
-def test_a_benchmark_gives_named_figures(name):
+def test_a_benchmark_gives_named_figures(shared, name):
     figures = importlib.import_module(f"benchmarks.{name}").run(quick=True)
     assert len({figure.name for figure in figures}) == len(figures) > 0
     assert any(figure.ratio for figure in figures)

@@ -3,6 +3,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.browser.test_burden import LOOKS
+
 LOG = Path(__file__).parents[2] / "examples" / "yumi" / "log.csv"
 MOST_CLICKS = 8
 
@@ -50,26 +52,18 @@ def test_the_list_of_studies_leads_to_each(look, service, studied):
     link = page.locator(f"a[href$='{studied.removeprefix(service)}']").first
     link.wait_for()
     assert "Identification of yumi-left" in link.text_content()
-    seen.photograph("start_light")
     assert page.locator(".state.successful").count() >= 1
     link.click()
     page.locator(".state.successful").wait_for()
     page.get_by_role("heading", level=1, name="Identification of yumi-left from log.csv").wait_for()
 
 
-@pytest.mark.parametrize(
-    ("name", "look_at"),
-    [
-        ("start_dark", {"scheme": "dark"}),
-        ("start_phone", {"width": 390, "height": 800}),
-        ("start_phone_dark", {"width": 390, "height": 800, "scheme": "dark"}),
-    ],
-)
-def test_the_start_page_fits_every_window(look, service, studied, name, look_at):
-    seen = look(service, **look_at)
+@pytest.mark.parametrize("name", LOOKS)
+def test_the_start_page_fits_every_window(look, service, studied, name):
+    seen = look(service, **LOOKS[name])
     page = seen.open("/")
     page.locator(".state.successful").first.wait_for()
-    seen.photograph(name)
+    seen.photograph(f"start_{name}")
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     assert seen.barriers() == []
 

@@ -48,6 +48,7 @@ judged() {
 }
 """
 _LONGEST_S = 600.0
+_SERVE = "serve"
 _OURS = {name: value for name, value in os.environ.items() if not name.startswith("VERITORQUE_")}
 """What is set already, but for the service's own settings, which would lead to somebody's data."""
 
@@ -66,6 +67,8 @@ def run_page(blocks: list[Block], folder: Path, url: str, data: Path) -> None:
 def run_page_that_serves(blocks: list[Block], folder: Path, database: str) -> None:
     """Run the blocks of a page that starts its own service, with a database in the place of the one it names.
 
+    A service beside which nothing else goes on has no worker, which would load the solver for no job.
+
     Raises
     ------
     AssertionError
@@ -81,7 +84,11 @@ def _run(blocks: list[Block], folder: Path, places: dict[str, str], environment:
     for name in ("examples", "openapi.json", ".venv", "Makefile", "docker"):
         (folder / name).symlink_to(ROOT / name)
     (folder / "run.mcap").symlink_to(_recorded(folder))
-    steps = [PRELUDE, *(_step(number, block, folder, places) for number, block in enumerate(blocks))]
+    steps = [PRELUDE]
+    for number, block in enumerate(blocks):
+        beside = next((one for one in blocks[number + 1 :] if one.is_up), None)
+        alone = _serves(block) and (beside is None or _serves(beside))
+        steps.append(_step(number, block, folder, places, alone=alone))
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     done = subprocess.run(
         ["bash", "-c", "\n".join(steps)],
@@ -102,7 +109,7 @@ def _recorded(folder: Path) -> Path:
     return write_mcap(folder, columns, {"elbow": 3, "shoulder_lift": 2, "shoulder_pan": 1})
 
 
-def _step(number: int, block: Block, folder: Path, places: dict[str, str]) -> str:
+def _step(number: int, block: Block, folder: Path, places: dict[str, str], *, alone: bool) -> str:
     """Write a block as commands of the shell, between the line that names it and the one that judges it."""
     body, up = block.body, block.is_up
     for written, meant in places.items():
@@ -112,15 +119,19 @@ def _step(number: int, block: Block, folder: Path, places: dict[str, str]) -> st
         file.write_text(body, encoding="utf-8")
         body = _started(file)
     if up:
-        body = _left_running(body, up, f"said_{number}")
+        body = _left_running(body, up, f"said_{number}", alone="env VERITORQUE_WORKERS=0 " if alone else "")
     return f"echo {shlex.quote(f'in {block}:')} >&2\n: > statuses\n{body}\njudged '{block.status or ''}'"
 
 
-def _left_running(body: str, is_up: str, said: str) -> str:
+def _serves(block: Block) -> bool:
+    return bool(block.is_up) and _SERVE in block.body
+
+
+def _left_running(body: str, is_up: str, said: str, *, alone: str) -> str:
     """Leave its last line running; a service takes the place of what ran before."""
     *before, last = body.strip().split("\n")
-    stop = ["ended"] if "serve" in last else []
-    start = [f"setsid {last} > {said} 2>&1 &", "running+=($!)"]
+    stop = ["ended"] if _SERVE in last else []
+    start = [f"setsid {alone}{last} > {said} 2>&1 &", "running+=($!)"]
     look = f"is_up {shlex.quote(is_up)} || {{ cat {said} >&2; exit 1; }}"
     return "\n".join([*before, *stop, *start, look])
 
