@@ -114,6 +114,12 @@ IMITATIONS: tuple[Imitation, ...] = (
         share=ALTERNATIVES.first_order_share,
     ),
     Imitation(
+        "position_filter",
+        "joint_elasticity",
+        "both hide fast motion of the links; a filter the same on all joints and at any load",
+        "log the positions as the encoders give them, or repeat with a payload: a filter stays the same",
+    ),
+    Imitation(
         "rotor_inertia_missing",
         "joint_elasticity",
         "both change the torque with the square of the frequency",

@@ -23,6 +23,7 @@ from .joint_elasticity import JointElasticity
 from .kinematic_error import KinematicError
 from .link_parameters import LinkParameters
 from .payload_change import PayloadChange
+from .position_filter import PositionFilter
 from .protocol import Cause
 from .rotor_inertia_missing import RotorInertiaMissing
 from .sample_check import SampleCheck
@@ -55,6 +56,7 @@ CAUSES: tuple[Cause, ...] = (
     TorqueSaturation(),
     TimeDelay(),
     TorqueFilterLag(),
+    PositionFilter(),
     EncoderOffset(),
     EncoderEccentricity(),
     KinematicError(),
