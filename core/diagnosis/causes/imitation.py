@@ -256,6 +256,13 @@ IMITATIONS: tuple[Imitation, ...] = (
         mutual=False,
     ),
     Imitation(
+        "torque_dead_zone",
+        "friction_load_dependent",
+        "both take from the torque; a dead zone only what is small, and it leaves exact zeros",
+        "pass slowly through postures in which the torque changes its sign, in both directions",
+        mutual=False,
+    ),
+    Imitation(
         "dropped_samples",
         "timestamp_jitter",
         "a recorder that is faster than the controller repeats rows regularly, and loses nothing",
