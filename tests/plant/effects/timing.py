@@ -13,6 +13,8 @@ from tests.plant.robots import Arm
 
 LOWEST_CUTOFF = 2.0
 """Hz, the least cut-off of a position filter: people filter above the motion."""
+FILTERED_STEP = 1e-9
+"""rad, the step of an angle that was computed."""
 HIGHEST_CUTOFF = 0.45
 """Share of the log's rate above which a filter is none."""
 
@@ -106,14 +108,21 @@ class PositionFilter(Effect):
         return self.cutoff > LOWEST_CUTOFF
 
     def sense(self, signals: Signals, rng: np.random.Generator) -> Signals:
-        """Run a Butterworth filter forwards and backwards over the angles and their derivatives."""
+        """Run a Butterworth filter forwards and backwards over the counted angles and their derivatives."""
         rate = 1.0 / (signals.time[1] - signals.time[0])
         if self.cutoff >= HIGHEST_CUTOFF * rate:
             return signals
         sections = signal.butter(self.order, self.cutoff, fs=rate, output="sos")
-        parts = (signals.position, signals.velocity, signals.acceleration)
+        counted = signals.encoder_step * np.round(signals.position / signals.encoder_step)
+        parts = (counted, signals.velocity, signals.acceleration)
         position, velocity, acceleration = (signal.sosfiltfilt(sections, part, axis=0) for part in parts)
-        return replace(signals, position=position, velocity=velocity, acceleration=acceleration)
+        return replace(
+            signals,
+            position=position,
+            velocity=velocity,
+            acceleration=acceleration,
+            encoder_step=np.full_like(signals.encoder_step, FILTERED_STEP),
+        )
 
 
 @dataclass(frozen=True)
