@@ -13,8 +13,10 @@ from .protocol import FittedCause, Numbers, Quantity, Scalars, SearchTraits, Set
 from .shared.own_joint import OwnJointCause, geometric_grid
 
 ORDERS = (1, 2)
-"""A Gaussian or a moving average has order 1; a Butterworth filter of order 2 that ran both ways, order 2."""
-LOWEST, HIGHEST, STARTS = 1.5, 3.0, 5
+"""A Gaussian or moving average has order 1; a Butterworth filter of order 2 that ran both ways, order 2."""
+GAINS = (1.0, 12.0)
+"""Largest gains of the inverse: positions that were rounded or noisy after the filter bear a small one."""
+LOWEST, HIGHEST, STARTS = 1.5, 3.0, 8
 
 
 @dataclass(frozen=True)
@@ -31,7 +33,7 @@ class PositionFilter(OwnJointCause):
         linearisation_error=LINEARISATION.position_filter,
         like_position_noise=True,
         self_consistent=("around",),
-        discrete=("order",),
+        discrete=("order", "most"),
     )
 
     def sites(self, dataset: Dataset) -> Sequence[Site]:
@@ -43,8 +45,9 @@ class PositionFilter(OwnJointCause):
         """Begin at several cut-offs, from the motion's bandwidth to beyond the data set's."""
         ends = (LOWEST * at.dataset.motion_band_hz, HIGHEST * at.dataset.band_hz)
         return [
-            {"order": float(order), "around": time_power(cutoff, order)}
+            {"order": float(order), "most": most, "around": time_power(cutoff, order)}
             for order in ORDERS
+            for most in GAINS
             for cutoff in geometric_grid(*ends, STARTS)
         ]
 
@@ -55,7 +58,7 @@ class PositionFilter(OwnJointCause):
             time_power(edge, order) for edge in (ADMISSIBLE.lowest_cutoff, ADMISSIBLE.highest_cutoff)
         )
         around = min(max(at.scalars["around"], least), most)
-        return PositionFilterTerm(0, at.operating_point, around, order)
+        return PositionFilterTerm(0, at.operating_point, around, order, int(at.scalars["most"]))
 
     def admissible(self, solved: FittedCause) -> bool:
         """Admit a filter that attenuates, and leaves some motion."""

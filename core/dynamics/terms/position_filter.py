@@ -22,8 +22,6 @@ HIGHEST = 0.45
 """Largest cut-off, as a share of the rate of the states: the kernel needs one below a half."""
 PERIODS = 3.0
 """Periods of the cut-off by which a motion is continued at its ends."""
-NEUMANN = 12
-"""Terms of the inverse's series in what the filter takes: the gain is at most their number."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,6 +31,8 @@ class PositionFilter(AllJointsTerm):
     believed: Prediction
     around: float
     order: int = 1
+    most: int = 1
+    """Terms of the inverse's series in what the filter takes: its gain is at most their number."""
     symbols = (("time_power", "s2", 0.0),)
     kind = "position_filter"
     has_memory = True
@@ -45,7 +45,7 @@ class PositionFilter(AllJointsTerm):
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the change of torque by what the filter took, per unit of T^(2 order)."""
         del robot
-        taken = _taken(state, cutoff_hz(self.around, self.order), self.order)
+        taken = _taken(state, cutoff_hz(self.around, self.order), self.order, self.most)
         change = np.zeros_like(state.position)
         for joint in range(state.position.shape[1]):
             shift = MotionState(*(part[:, [joint]] for part in _parts(taken)))
@@ -82,13 +82,13 @@ def time_power(cutoff: float, order: int) -> float:
     return float((2.0 * np.pi * cutoff) ** (-2 * order))
 
 
-def _taken(state: MotionState, cutoff: float, order: int) -> MotionState:
+def _taken(state: MotionState, cutoff: float, order: int, most: int) -> MotionState:
     """Give what the inverse of the filter adds to a motion."""
     rate = 1.0 / step_of(state)
     reach = min(int(np.ceil(PERIODS * rate / cutoff)), len(state.position) - 1)
     frequency = np.fft.rfftfreq(next_fast_len(len(state.position) + 2 * reach, real=True), 1.0 / rate)
     passed = gain(frequency, cutoff_hz=min(cutoff, HIGHEST * rate), rate_hz=rate, order=order)
-    inverse = np.sum((1.0 - passed) ** np.arange(1.0, NEUMANN + 1.0)[:, None], axis=0)
+    inverse = np.sum((1.0 - passed) ** np.arange(1.0, most + 1.0)[:, None], axis=0)
 
     def added(series: JointSeries) -> JointSeries:
         padded = np.pad(series, ((reach, reach), (0, 0)), mode="reflect", reflect_type="odd")

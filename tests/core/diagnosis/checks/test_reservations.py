@@ -25,7 +25,9 @@ def found(cause: Cause | TorqueDeadZone, site: Site, share: float) -> Finding:
     made = sample_finding(
         cause, SampleFinding(site, (), "found", 1.0, 1.0 - SURE, shares), eventful_scene().dataset
     )
-    return made if isinstance(cause, TorqueDeadZone) else replace(made, member=Candidate(cause, site, {}, 1.0))
+    return (
+        made if isinstance(cause, TorqueDeadZone) else replace(made, member=Candidate(cause, site, {}, 1.0))
+    )
 
 
 @pytest.mark.parametrize(
