@@ -90,7 +90,10 @@ def _zone(dataset: Dataset, number: int, joint: int) -> _Zone | None:
     gap, width = float(sizes[0]), float(sizes[zeros - 1] - sizes[0])
     shrinks = gap < SAMPLE_CHECKS.dead_gap * width
     half = width if shrinks else gap
-    deviation = half * float(np.sqrt(2.0 / len(runs))) if shrinks else float(sizes[1] - gap)
+    # How dense torques are changes with their size: by how much, the next as many show.
+    next_width = float(sizes[min(2 * zeros, len(sizes)) - 1] - sizes[zeros - 1])
+    scatter = half * float(np.sqrt(2.0 / len(runs)))
+    deviation = float(np.hypot(scatter, next_width - width)) if shrinks else float(sizes[1] - gap)
     share = zeros / (zeros + len(others))
     return _Zone(half, deviation, shrinks, zeros, share, max(p_value, 1e-300))
 
