@@ -23,6 +23,7 @@ from .checks.findings import finding, sample_finding
 from .checks.holdout_outliers import Explained, has_holdout_outliers, with_other_holdout, with_typical_holdout
 from .checks.kurtosis import bounded_residual
 from .checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
+from .checks.reservations import beside_dead_zones
 from .dataset.dataset import Dataset, build_dataset, later_torque, refuse_too_little, refuse_unjudged
 from .problem import DiagnosisProblem
 from .residual.atlas import atlas
@@ -63,7 +64,8 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     unnamed = _unnamed_pattern(found, after)
     statistic = 0.0 if unnamed is None else unnamed.statistic
     unnamed = _most_significant(unnamed, burst(dataset, after))
-    findings = [finding(found, own, after, statistic) for own in comparisons] + faults
+    named = [finding(found, own, after, statistic) for own in comparisons]
+    findings = beside_dead_zones([*named, *faults])
     tell("predict the residual", 0.8)
     noise = tuple(joint.noise for joint in chosen.fit.joints)
     predictable = predictable_share(dataset, after, fitter.operating_point, noise)

@@ -109,11 +109,11 @@ class Prediction:
 
     def rotor(self, joint: int) -> float:
         """Give the inertia of a joint's rotor (joint from 1); zero where it is part of the link's."""
-        return math.fsum(
-            value
-            for parameter, value in zip(self.model.parameters, self.standard, strict=True)
-            if parameter.symbol == "IA" and parameter.joint == joint
-        )
+        return self._sum_of("IA", joint)
+
+    def viscous(self, joint: int) -> float:
+        """Give the viscous friction of a joint (from 1)."""
+        return self._sum_of("FV", joint)
 
     def friction(self, state: MotionState) -> JointSeries:
         """Give the torque of all terms but moving masses, N m or N."""
@@ -158,6 +158,13 @@ class Prediction:
                 self._slope(state, joint, (0.0, 0.0, STEPS[2])),
             )
         return known[joint]
+
+    def _sum_of(self, symbol: str, joint: int) -> float:
+        return math.fsum(
+            value
+            for parameter, value in zip(self.model.parameters, self.standard, strict=True)
+            if parameter.symbol == symbol and parameter.joint == joint
+        )
 
     def _joined(self, which: str, state: MotionState, parts: Iterable[tuple[Term, Weights]]) -> JointSeries:
         known = self._sums.setdefault(state, {})

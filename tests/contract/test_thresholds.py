@@ -30,6 +30,7 @@ NAMED = {
         "diagnosis/causes/shared/own_joint": "MOTOR_SHARES",
         "diagnosis/causes/time_delay": "STARTS",
         "diagnosis/causes/torque_filter_lag": "STARTS",
+        "diagnosis/causes/position_filter": "ORDERS GAINS LOWEST HIGHEST STARTS",
         "diagnosis/causes/torque_offset_drift": "SHARES",
         "diagnosis/causes/torque_ripple": "MOST BAND_SHARE",
         "diagnosis/causes/torque_saturation": "SHARES",

@@ -49,6 +49,8 @@ def record(signals: Signals, noise_rms: np.ndarray, kind: str, rng: np.random.Ge
     """Make the log: torque with noise, angles in encoder counts."""
     rate_hz = 1.0 / (signals.time[1] - signals.time[0])
     torque = signals.torque + noise_rms * noise(kind, signals.torque.shape, rate_hz, rng)
+    for joint in signals.silent:
+        torque[signals.torque[:, joint] == 0.0, joint] = 0.0
     channels = {} if signals.temperature is None else {"temperature": signals.temperature}
     return log_from_arrays("plant", signals.time, counted(signals), torque[signals.kept], **channels)
 

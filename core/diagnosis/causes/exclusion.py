@@ -92,6 +92,11 @@ EXCLUSIONS: tuple[Exclusion, ...] = (
         "a filter lags, and one as slow leaves no motion in the torque",
     ),
     Exclusion(
+        "position_filter",
+        f"it amplifies, or its cut-off is below {ADMISSIBLE.lowest_cutoff:g} Hz",
+        "a low-pass attenuates, and one as low leaves no motion",
+    ),
+    Exclusion(
         "encoder_offset",
         f"it exceeds {ADMISSIBLE.encoder_offset:g} rad",
         "the table belongs to another robot; quarter and half turns are conflicts of robot and log",

@@ -114,6 +114,12 @@ IMITATIONS: tuple[Imitation, ...] = (
         share=ALTERNATIVES.first_order_share,
     ),
     Imitation(
+        "position_filter",
+        "joint_elasticity",
+        "both hide fast motion of the links; a filter the same on all joints and at any load",
+        "log the positions as the encoders give them, or repeat with a payload: a filter stays the same",
+    ),
+    Imitation(
         "rotor_inertia_missing",
         "joint_elasticity",
         "both change the torque with the square of the frequency",
@@ -247,6 +253,13 @@ IMITATIONS: tuple[Imitation, ...] = (
         "torque_offset_drift",
         "an offset that drifts is on average another offset",
         "record for longer: a drift continues",
+        mutual=False,
+    ),
+    Imitation(
+        "torque_dead_zone",
+        "friction_load_dependent",
+        "both take from the torque; a dead zone only what is small, and it leaves exact zeros",
+        "pass slowly through postures in which the torque changes its sign, in both directions",
         mutual=False,
     ),
     Imitation(

@@ -23,12 +23,14 @@ from .joint_elasticity import JointElasticity
 from .kinematic_error import KinematicError
 from .link_parameters import LinkParameters
 from .payload_change import PayloadChange
+from .position_filter import PositionFilter
 from .protocol import Cause
 from .rotor_inertia_missing import RotorInertiaMissing
 from .sample_check import SampleCheck
 from .spring_compensator import SpringCompensator
 from .time_delay import TimeDelay
 from .timestamp_jitter import TimestampJitter
+from .torque_dead_zone import TorqueDeadZone
 from .torque_filter_lag import TorqueFilterLag
 from .torque_gain import TorqueGain
 from .torque_gain_nonlinear import TorqueGainNonlinear
@@ -55,6 +57,7 @@ CAUSES: tuple[Cause, ...] = (
     TorqueSaturation(),
     TimeDelay(),
     TorqueFilterLag(),
+    PositionFilter(),
     EncoderOffset(),
     EncoderEccentricity(),
     KinematicError(),
@@ -80,7 +83,12 @@ ONLY_CHANGES: tuple[Cause, ...] = tuple(
 """Those of them that have no counterpart within a log."""
 AGAINST_REFERENCE: tuple[Cause, ...] = (*CHANGES, *CAUSES)
 """Causes that add torque to what a reference predicts."""
-SAMPLE_CHECKS: tuple[SampleCheck, ...] = (DroppedSamples(), TimestampJitter(), EncoderQuantization())
+SAMPLE_CHECKS: tuple[SampleCheck, ...] = (
+    DroppedSamples(),
+    TimestampJitter(),
+    EncoderQuantization(),
+    TorqueDeadZone(),
+)
 """Causes that are found in the raw samples."""
 
 BY_ID: Mapping[str, Cause | SampleCheck] = {

@@ -102,8 +102,21 @@ def _stands(dataset: Dataset) -> Iterator[Indices]:
     for run in np.split(rows, np.flatnonzero(~dataset.follows(rows))):
         inner = run[AT_REST.settling_rows : len(run) - AT_REST.settling_rows]
         ends = 2 * AT_REST.edge_rows
-        if len(inner) >= 2 * ends:
+        if len(inner) >= 2 * ends and _stays(dataset, inner):
             yield inner
+
+
+def _stays(dataset: Dataset, rows: Indices) -> bool:
+    """Tell whether positions stay where they are, against how far they come in as many rows elsewhere.
+
+    Where stamps scatter, speeds are mostly noise, and slow motion would pass for a stand.
+    """
+    position, count = dataset.state.position, len(rows) - 1
+    travel = np.ptp(position[rows], axis=0)
+    moved = (position[count:] - position[:-count])[dataset.time[count:] > dataset.time[:-count]]
+    usual = np.sqrt(np.mean(moved**2, axis=0))
+    parked = np.all([motion.recipe.held for motion in dataset.motions], axis=0)
+    return bool((parked | (travel <= AT_REST.travel_share * usual)).all())
 
 
 def _push(dataset: Dataset, rows: Indices, change: JointSeries, jacobian: Jacobian, scale: _Scale) -> _Push:

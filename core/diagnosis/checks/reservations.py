@@ -4,11 +4,12 @@ A cause is a small correction of a model that fits. Beside a conflict that is op
 more than half of a joint's torque, the likeliest small correction is seldom the reason.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from ..causes.torque_dead_zone import TorqueDeadZone
 from ..causes.torque_gain import TorqueGain
 from ..result import Diagnosis, Finding
 from ..thresholds.checks import CONFIDENCE, RESIDUAL, VERDICT
@@ -42,6 +43,25 @@ def with_reservations(
         # What cannot be identified is known at a good fit only, and the model does not fit.
         not_identifiable=() if failed else found.not_identifiable,
     )
+
+
+def beside_dead_zones(findings: Sequence[Finding]) -> list[Finding]:
+    """Limit findings on joints of which a dead zone of the torque accounts for more than they explain.
+
+    What the channel keeps back is a torque of the load and of the direction of motion, as friction is, and
+    comes and goes, as contacts do. A transient cause acts on all joints before its own.
+    """
+    zones = {one.joints[0]: one.explained_fraction for one in findings if one.cause == TorqueDeadZone.id}
+
+    def limited(finding: Finding) -> Finding:
+        member = finding.member
+        if member is None:
+            return finding
+        reach = range(1, max(finding.joints) + 1) if member.cause.traits.transient else finding.joints
+        spoilt = max((zones.get(joint, 0.0) for joint in reach), default=0.0)
+        return as_doubtful(finding) if spoilt > finding.explained_fraction else finding
+
+    return [limited(finding) for finding in findings]
 
 
 def as_doubtful(finding: Finding) -> Finding:

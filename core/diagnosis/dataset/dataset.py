@@ -163,10 +163,20 @@ def refuse_too_little(dataset: Dataset, plan: ColumnPlan) -> None:
     rows = (dataset.clear & ~dataset.held_out[:, None]).sum(axis=0)
     needed = np.array([ROWS.per_column * len(columns) for columns in plan.columns_of])
     if (rows < needed).all():
+        counts = {"instants": rows.tolist(), "needed": needed.tolist()}
+        kinds = {defect.kind: defect for motion in dataset.motions for defect in motion.log.defects}
+        if "jitter" in kinds:
+            raise ExcitationError(
+                "the stamps scatter so much that speeds are mostly noise: no joint has enough instants that "
+                "are surely away from reversals",
+                evidence={**counts, "stamps": kinds["jitter"].statement},
+                remedy="stamp every sample when it is taken, or number the samples of an even clock and "
+                "divide by its rate",
+            )
         raise ExcitationError(
             "the log holds too little motion for a diagnosis: no joint has enough instants away from "
             "standstill and reversals",
-            evidence={"instants": rows.tolist(), "needed": needed.tolist()},
+            evidence=counts,
             remedy="record at least ten seconds in which every joint moves, at 100 Hz or more",
         )
 

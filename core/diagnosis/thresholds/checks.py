@@ -130,6 +130,9 @@ class AtRest:
     """Standard deviations of a joint's residual in motion by which torque has to change beyond friction."""
     still_share: float = 0.03
     """Share of every joint's RMS speed below which the arm stands, though it may still settle."""
+    travel_share: float = 0.1
+    """Share of the RMS distance that a joint comes elsewhere in the same time, which it may move within a
+    stand."""
     settling_rows: int = 4
     """Rows at either end of a stand in which the filter settles."""
     edge_rows: int = 2

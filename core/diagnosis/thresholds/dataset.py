@@ -107,6 +107,17 @@ class SampleChecks:
     """Share of some joint's residual that jitter has to account for: rounding scatters, too."""
     jitter_block: int = 32
     """Rows whose products are summed before their scatter is taken."""
+    dead_passages: int = 5
+    """Stretches of exact zeros while a joint moves from which a dead zone is looked for."""
+    dead_nearby: float = 1.0
+    """Nonzero torques per zero that have to be there: fewer say nothing of how dense they are."""
+    dead_over_others: float = 5.0
+    """Ratio of zeros to the most frequent other value among as many torques next to zero. A channel that cuts
+    off what is below its step has twice as many zeros."""
+    dead_flank: float = 0.5
+    """Share of the median torque that the median torque beside a stretch of zeros has to be below."""
+    dead_gap: float = 0.5
+    """Share of the width without values beside zero from which larger torques are taken to be unchanged."""
     rounding_share: float = 0.6
     """Share of a joint's residual that rounding has to account for. Good encoders account for a half."""
     rounding_of_torque: float = 0.006

@@ -67,7 +67,7 @@ def eventful_scene() -> Scene:
 
 @cache
 def spoilt_scenes() -> tuple[Scene, ...]:
-    """Look at logs whose samples are not in order: late and early ones, coarse ones, repeated ones."""
+    """Look at logs whose samples are not in order: late and early, coarse, repeated, too small to be read."""
     stamps, position, torque = recording()
     rng = np.random.default_rng(4)
     late = recording(jitter=2e-3)
@@ -77,6 +77,7 @@ def spoilt_scenes() -> tuple[Scene, ...]:
         scene_of(stamps, *late[1:]),
         scene_of(stamps, coarse, torque),
         scene_of(stamps, position[lost], torque[lost]),
+        scene_of(stamps, position, np.where(np.abs(torque) < 0.3, 0.0, torque)),
     )
 
 

@@ -167,3 +167,29 @@ class TorqueRipple(Effect):
     def torque(self, state: State, torque: np.ndarray) -> None:
         """Resist with the wave."""
         torque[self.own] -= self.amplitude * np.cos(self.harmonic * state.position[self.own] + self.phase)
+
+
+@dataclass(frozen=True)
+class TorqueDeadZone(Effect):
+    """Log zero on one channel where the torque is below `half_width`, and elsewhere as much less."""
+
+    half_width: float
+    cause = "torque_dead_zone"
+    draw_order = 31
+    parameters = ("half_width",)
+    units: ClassVar = {"half_width": "N m"}
+    sizes = ("half_width",)
+    raw = True
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, arm: Arm, steering: Steering) -> Self:
+        """Start from a twentieth of the torque."""
+        (joint,) = any_joint(rng, arm)
+        return cls((joint,), 0.05 * torque_rms(steering, joint - 1))
+
+    def sense(self, signals: Signals, rng: np.random.Generator) -> Signals:
+        """Take the width from the torque; where nothing is left, there is no noise either."""
+        torque = signals.fine_torque[:, self.own]
+        taken = -np.clip(torque, -self.half_width, self.half_width)
+        silent = (*signals.silent, self.own) if self.half_width > 0.0 else signals.silent
+        return replace(on_channel(signals, self.own, taken), silent=silent)

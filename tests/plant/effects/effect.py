@@ -51,7 +51,8 @@ class Signals:
     `position`, `velocity` and `acceleration` are the measured angle and its exact derivatives; `direction`
     is the Coulomb friction over its level, in [-1, 1] where the joint sticks; `fine_torque` is the drive's
     torque at every step of the simulation, `steps` of them per row. `encoder_step` is one count in rad per
-    joint; `kept` names for every row the row that is logged in its place.
+    joint; `kept` names for every row the row that is logged in its place. Of the joints (from 0) in `silent`
+    a torque of zero has no noise.
     """
 
     time: np.ndarray
@@ -66,6 +67,7 @@ class Signals:
     encoder_step: np.ndarray
     kept: np.ndarray
     temperature: np.ndarray | None = None
+    silent: tuple[int, ...] = ()
 
     @property
     def fine_time(self) -> np.ndarray:

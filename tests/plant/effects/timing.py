@@ -11,6 +11,13 @@ from tests.plant.effects.effect import Effect, Signals
 from tests.plant.mechanism import STEPS_PER_SECOND
 from tests.plant.robots import Arm
 
+LOWEST_CUTOFF = 2.0
+"""Hz, the least cut-off of a position filter: people filter above the motion."""
+FILTERED_STEP = 1e-9
+"""rad, the step of an angle that was computed."""
+HIGHEST_CUTOFF = 0.45
+"""Share of the log's rate above which a filter is none."""
+
 
 def all_joints(arm: Arm) -> tuple[int, ...]:
     """List all joints, counted from 1."""
@@ -71,6 +78,51 @@ class TorqueFilterLag(Effect):
         start = signal.lfilter_zi(ahead[0], back)[:, None] * signals.fine_torque[:1]
         slow, _ = signal.lfilter(ahead[0], back, signals.fine_torque, axis=0, zi=start)
         return signals.with_torque(slow)
+
+
+@dataclass(frozen=True)
+class PositionFilter(Effect):
+    """Log all positions after a zero-phase low-pass that halves amplitudes at `cutoff` Hz."""
+
+    cutoff: float
+    order: int = 2
+    cause = "position_filter"
+    draw_order = 30
+    parameters = ("cutoff",)
+    units: ClassVar = {"cutoff": "Hz"}
+    sizes = ("cutoff",)
+    local = False
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, arm: Arm, steering: Steering) -> Self:
+        """Start from a few times the motion's band, and draw the order."""
+        return cls(all_joints(arm), 20.0, int(rng.choice([1, 2])))
+
+    def scaled(self, factor: float) -> Self:
+        """Give a filter that takes more: what it takes grows with a power of the time constant."""
+        power = -0.5 / self.order
+        return replace(self, cutoff=self.cutoff * factor**power if factor > 0.0 else np.inf)
+
+    def plausible(self) -> bool:
+        """Leave some motion."""
+        return self.cutoff > LOWEST_CUTOFF
+
+    def sense(self, signals: Signals, rng: np.random.Generator) -> Signals:
+        """Run a Butterworth filter forwards and backwards over the counted angles and their derivatives."""
+        rate = 1.0 / (signals.time[1] - signals.time[0])
+        if self.cutoff >= HIGHEST_CUTOFF * rate:
+            return signals
+        sections = signal.butter(self.order, self.cutoff, fs=rate, output="sos")
+        counted = signals.encoder_step * np.round(signals.position / signals.encoder_step)
+        parts = (counted, signals.velocity, signals.acceleration)
+        position, velocity, acceleration = (signal.sosfiltfilt(sections, part, axis=0) for part in parts)
+        return replace(
+            signals,
+            position=position,
+            velocity=velocity,
+            acceleration=acceleration,
+            encoder_step=np.full_like(signals.encoder_step, FILTERED_STEP),
+        )
 
 
 @dataclass(frozen=True)

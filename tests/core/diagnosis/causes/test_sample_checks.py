@@ -1,5 +1,6 @@
 """Sample checks find a fault of the samples with its size, and nothing in logs without one."""
 
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -9,6 +10,7 @@ from veritorque.core.diagnosis.causes.dropped_samples import DroppedSamples
 from veritorque.core.diagnosis.causes.encoder_quantization import EncoderQuantization
 from veritorque.core.diagnosis.causes.sample_check import SampleCheck, SampleFinding
 from veritorque.core.diagnosis.causes.timestamp_jitter import TimestampJitter
+from veritorque.core.diagnosis.causes.torque_dead_zone import TorqueDeadZone
 from veritorque.core.diagnosis.dataset.dataset import Dataset, build_dataset
 from veritorque.core.diagnosis.regression.innovation_covariance import fitted_rows, torque_residual
 from veritorque.core.dynamics.model import standard_model
@@ -18,7 +20,7 @@ from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.robot.model import Joint, Link, RobotModel
 
 CHECKS: dict[str, SampleCheck] = {
-    one.id: one for one in (TimestampJitter(), DroppedSamples(), EncoderQuantization())
+    one.id: one for one in (TimestampJitter(), DroppedSamples(), EncoderQuantization(), TorqueDeadZone())
 }
 RATE_HZ, SECONDS = 250.0, 20.0
 INERTIA, NOISE = np.array([2.0, 1.0]), 0.05
@@ -168,3 +170,44 @@ def test_what_repeats_are_worth_is_what_keeping_them_would_add(lost):
     more = float(np.max(np.sqrt(left(kept) / left(log)) - 1.0))
     said = float(found.statement.split("would leave ")[1].split(" %")[0]) / 100.0
     assert said == pytest.approx(more, rel=0.5)
+
+
+def with_torque(change: Callable[[np.ndarray], np.ndarray]) -> JointLog:
+    """Record the wheels with another first torque."""
+    rows = recorded().source.data
+    torque = rows.torque.copy()
+    torque[:, 0] = change(torque[:, 0])
+    return log_from_arrays("wheels", rows.time, rows.position, torque)
+
+
+DEAD = 0.6
+ZONES: dict[str, tuple[Callable[[np.ndarray], np.ndarray], float]] = {
+    "too little by as much": (lambda tau: np.sign(tau) * np.maximum(np.abs(tau) - DEAD, 0.0), 0.2 * DEAD),
+    "what they are": (lambda tau: np.where(np.abs(tau) < DEAD, 0.0, tau), 0.02 * DEAD),
+}
+
+
+@pytest.mark.parametrize("words", ZONES)
+def test_a_dead_zone_is_found_on_its_channel_with_its_width_and_what_it_does_to_larger_torques(words):
+    change, within = ZONES[words]
+    spoilt = with_torque(change)
+    (found,) = findings("torque_dead_zone", spoilt)
+    assert found.site == (1,)
+    assert found.quantities[0].value == pytest.approx(DEAD, abs=within)
+    assert words in found.statement
+    held = operating_point()
+    really = 1.0 - _mean_square(looked_at(recorded()), held) / _mean_square(looked_at(spoilt), held)
+    np.testing.assert_allclose(found.residual_share, really, atol=0.1)
+    assert really[0] > 0.15
+
+
+ZEROS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
+    "rounded to steps": lambda tau: DEAD * np.round(tau / DEAD),
+    "cut off to steps": lambda tau: DEAD * np.trunc(tau / DEAD),
+    "missing": lambda tau: np.where(np.arange(len(tau)) % 50 < 3, 0.0, tau),
+}
+
+
+@pytest.mark.parametrize("how", ZEROS)
+def test_zeros_of_a_coarse_channel_or_of_a_recorder_that_missed_samples_are_no_dead_zone(how):
+    assert findings("torque_dead_zone", with_torque(ZEROS[how])) == ()

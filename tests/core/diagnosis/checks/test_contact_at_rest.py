@@ -17,9 +17,10 @@ PUSH = (9.0, 10.5)
 TORQUE = 30.0
 COULOMB = 3.0
 RATE_HZ = 250.0
+SCATTER = 0.6e-3
 
 
-def standing(*, rests=1, parked=False):
+def standing(*, rests=1, parked=False, slowest=0.0):
     """Move three joints, but for a stand of four seconds in every twenty, with friction and little noise.
 
     A parked joint is held all the time; its encoder trembles by a microradian.
@@ -27,7 +28,7 @@ def standing(*, rests=1, parked=False):
     seconds = 12.0 * rests + 8.0
     time = np.arange(0.0, seconds, 1.0 / RATE_HZ)
     into = time % 12.0
-    pace = np.clip(np.minimum(into, 8.0 - into), 0.0, 1.0)
+    pace = np.clip(np.minimum(into, 8.0 - into), slowest, 1.0)
     way = np.cumsum(pace) / RATE_HZ
     rng = np.random.default_rng(7)
     position = 0.8 * np.column_stack([np.sin(1.9 * way), np.cos(2.6 * way), np.sin(3.4 * way + 1.0)])
@@ -98,3 +99,11 @@ def test_a_brake_that_opens_as_the_arm_begins_to_move_is_no_push(released):
     log = standing()
     held = with_torque(log, lambda time: np.where((time > STAND[0]) & (time < released), -TORQUE, 0.0))
     assert found_in(held) == ()
+
+
+def test_slow_motion_is_no_stand_however_stamps_scatter():
+    """Speeds are mostly noise then, and a tenth of the usual speed is little beside it."""
+    rows, rng = whole_rows(pushed(standing(slowest=0.1), skew_arm(), PUSH, TORQUE)), np.random.default_rng(3)
+    stamps = np.maximum.accumulate(rows.time + rng.exponential(SCATTER, len(rows.time)))
+    stamps += 1e-6 * np.arange(len(stamps))
+    assert found_in(log_from_arrays("scattered", stamps, rows.position, rows.torque)) == ()

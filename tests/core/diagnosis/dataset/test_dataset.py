@@ -1,11 +1,17 @@
 """Hold the rows of a diagnosis to a torque that the model explains: what they leave of it must be nothing."""
 
 import numpy as np
+import pytest
 
 from tests.core.diagnosis.scenes import Scene, fitter_of, look_at_arm, measured_arm
-from veritorque.core.diagnosis.dataset.dataset import Dataset
+from tests.core.estimate.worlds import planar_robot
+from veritorque.core.diagnosis.dataset.dataset import Dataset, build_dataset, refuse_too_little
 from veritorque.core.diagnosis.search.residuals import residual
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.errors import ExcitationError
 from veritorque.core.log.model import whole_rows
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.regressor.columns import all_columns
 from veritorque.core.signals.recipe import FilterOptions
 
 NEGLIGIBLE = 5e-4
@@ -49,3 +55,14 @@ def test_spikes_of_positions_are_cut_and_the_tips_of_turning_points_with_them_wh
     assert median_order(scene.dataset) == 5
     monkeypatch.setattr(FilterOptions, "median_order", 1)
     assert (is_masked(scene) < 0.5 * is_masked(with_spikes(measured_arm(noise=1e-6)))).all()
+
+
+def test_a_log_whose_stamps_scatter_is_refused_for_its_stamps_and_not_for_its_motion():
+    time, rng = np.arange(0.0, 20.0, 0.004), np.random.default_rng(3)
+    angle = np.column_stack([np.sin(1.3 * time), np.sin(2.1 * time)])
+    stamps = np.maximum.accumulate(time + rng.exponential(0.004, len(time))) + 1e-6 * np.arange(len(time))
+    model = standard_model(planar_robot(), ("rigid_body",))
+    log = log_from_arrays("scattered", stamps, angle, -angle)
+    dataset = build_dataset(model, (log,), held_out=frozenset(), blocks=5)
+    with pytest.raises(ExcitationError, match="stamps scatter"):
+        refuse_too_little(dataset, all_columns(model))

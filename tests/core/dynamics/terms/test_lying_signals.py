@@ -8,6 +8,7 @@ import pytest
 from tests.core.dynamics.terms.chains import JOINTS, described_chain, exact, motion_of, one_viscous_joint
 from veritorque.core.dynamics.prediction import shift_joint
 from veritorque.core.dynamics.terms.encoder_error import EncoderEccentricity, EncoderOffset
+from veritorque.core.dynamics.terms.position_filter import PositionFilter, time_power
 from veritorque.core.dynamics.terms.time_delay import Delay
 from veritorque.core.dynamics.terms.torque_filter_lag import FilterLag
 from veritorque.core.dynamics.terms.torque_gain import CommonGain, TorqueGain
@@ -70,6 +71,21 @@ def test_a_filter_weakens_and_delays_a_sine_as_its_transfer_function_says(time_c
     np.testing.assert_allclose(
         found, wave, atol=1e-4
     )  # samples a millisecond apart, joined by straight lines
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("cutoff", [4.0, 12.0])
+def test_what_a_filter_took_of_a_sine_is_given_back_as_its_gain_says(cutoff, order):
+    described, state, frequency = one_viscous_joint(), sine(20.0), 20.0
+    power = time_power(cutoff, order)
+    (column,) = PositionFilter(0, described, power, order, 12).torques(described.model.robot, state)
+    passed = 1.0 / (1.0 + power * frequency ** (2 * order))
+    # The bilinear filter's frequency differs by (w h)^2 / 12 of it.
+    np.testing.assert_allclose(
+        (power * column)[1000:-1000, 0],
+        (1.0 / passed - 1.0) * state.velocity[1000:-1000, 0],
+        atol=2e-3 * (1.0 / passed - 1.0),
+    )
 
 
 def test_a_short_filter_is_a_delay():

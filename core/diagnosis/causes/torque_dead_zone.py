@@ -1,0 +1,134 @@
+"""Candidate cause: a dead zone of a torque channel, within which small torques read exactly zero.
+
+Noise hardly ever gives one value twice, and rounding gives its neighbours as often. So a zero that occurs far
+more often than any other value next to it, while the joint moves, is not measured. A recorder that writes
+zero where it has nothing does so next to torques of any size, a dead zone next to small ones. Torques are as
+dense within the zone as beside it: as many nonzero ones as there are zeros fill as wide a range.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import poisson
+
+from ...arrays import JointSeries, Samples
+from ...dynamics.prediction import Prediction
+from ...log.channels import EFFORTS
+from ...numerics.marked_runs import marked_runs
+from ...robot.joint_units import joint_unit
+from ...signals.condition import Motion
+from ..dataset.dataset import Dataset
+from ..thresholds.dataset import ROWS, SAMPLE_CHECKS
+from .protocol import Quantity
+from .sample_check import SampleCheck, SampleFinding, share_of_residual
+
+
+@dataclass(frozen=True, eq=False)
+class _Zone:
+    """Hold the dead zone of a channel."""
+
+    half: float
+    deviation: float
+    """Half of its width and its deviation, N m or N."""
+    shrinks: bool
+    """Whether it takes as much from what it passes."""
+    zeros: int
+    share: float
+    """Samples in motion that read zero, and their share."""
+    p_value: float
+
+    def error(self, torque: Samples) -> Samples:
+        """Give what the channel adds to a torque."""
+        taken = np.clip(torque, -self.half, self.half) if self.shrinks else torque
+        return np.asarray(-np.where(self.shrinks | (np.abs(torque) < self.half), taken, 0.0))
+
+
+@dataclass(frozen=True)
+class TorqueDeadZone(SampleCheck):
+    """Candidate cause: a dead zone of a torque channel."""
+
+    id = "torque_dead_zone"
+    title = "Dead zone of the torque channel"
+    units = (("half_width", "N m"),)
+    experiment = "slow motion through postures in which the torque changes its sign"
+    beyond_repair = "What the torque was where the channel reads zero is not in the log"
+
+    def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
+        """Count zeros of every channel while its joint moves."""
+        found = []
+        for joint in range(dataset.joints):
+            zones = [_zone(dataset, number, joint) for number in range(len(dataset.motions))]
+            known = [zone for zone in zones if zone is not None]
+            if known:
+                widest = max(known, key=lambda zone: zone.half)
+                found.append(_finding(dataset, operating_point, joint, widest))
+        return tuple(found)
+
+
+def _zone(dataset: Dataset, number: int, joint: int) -> _Zone | None:
+    """Find the dead zone of a channel in one log."""
+    motion = dataset.motions[number]
+    time, effort = _efforts(motion, joint)
+    own = dataset.log == number
+    speed = np.interp(time, dataset.time[own], np.abs(dataset.state.velocity[own, joint]))
+    moving = speed > motion.recipe.still_speed[joint]
+    zero = moving & (effort == 0.0)
+    zeros, others = int(zero.sum()), effort[moving & (effort != 0.0)]
+    runs = marked_runs(zero)
+    if len(runs) < SAMPLE_CHECKS.dead_passages or len(others) < SAMPLE_CHECKS.dead_nearby * zeros:
+        return None
+    sizes = np.sort(np.abs(others))
+    near = others[np.abs(others) <= sizes[zeros - 1]]
+    most = int(np.unique(near, return_counts=True)[1].max())
+    flanks = np.abs(
+        effort[np.concatenate([np.maximum(runs[:, 0] - 1, 0), np.minimum(runs[:, 1], len(effort) - 1)])]
+    )
+    small = np.median(flanks) < SAMPLE_CHECKS.dead_flank * np.median(sizes)
+    p_value = float(poisson.sf(zeros - 1, most))
+    if zeros < SAMPLE_CHECKS.dead_over_others * most or not small or p_value > SAMPLE_CHECKS.level:
+        return None
+    gap, width = float(sizes[0]), float(sizes[zeros - 1] - sizes[0])
+    shrinks = gap < SAMPLE_CHECKS.dead_gap * width
+    half = width if shrinks else gap
+    # How dense torques are changes with their size: by how much, the next as many show.
+    next_width = float(sizes[min(2 * zeros, len(sizes)) - 1] - sizes[zeros - 1])
+    scatter = half * float(np.sqrt(2.0 / len(runs)))
+    deviation = float(np.hypot(scatter, next_width - width)) if shrinks else float(sizes[1] - gap)
+    share = zeros / (zeros + len(others))
+    return _Zone(half, deviation, shrinks, zeros, share, max(p_value, 1e-300))
+
+
+def _efforts(motion: Motion, joint: int) -> tuple[Samples, Samples]:
+    """Give stamps and torques of a joint as they were logged, over the log's beginning."""
+    rows = motion.log.source.rows(0, min(motion.log.source.samples, int(ROWS.seconds * motion.log.rate_hz)))
+    effort = next(series for series in (getattr(rows, name) for name in EFFORTS) if series is not None)
+    return rows.time, effort[:, joint] * motion.effort_scale[joint]
+
+
+def _finding(dataset: Dataset, operating_point: Prediction, joint: int, zone: _Zone) -> SampleFinding:
+    unit = joint_unit(dataset.robot, joint + 1, "N m")
+    size = Quantity("half_width", joint + 1, unit, zone.half, zone.deviation)
+    larger = "and larger ones too little by as much" if zone.shrinks else "and larger ones what they are"
+    return SampleFinding(
+        site=(joint + 1,),
+        quantities=(size,),
+        statement=(
+            f"Dead zone of torque channel {joint + 1}: torques below {size.text} read zero, {larger}; "
+            f"{zone.zeros} samples in motion, {100.0 * zone.share:.2g} %, are exactly zero"
+        ),
+        statistic=float(zone.zeros),
+        p_value=zone.p_value,
+        residual_share=share_of_residual(
+            dataset, operating_point, _added(dataset, operating_point, joint, zone)
+        ),
+    )
+
+
+def _added(dataset: Dataset, operating_point: Prediction, joint: int, zone: _Zone) -> JointSeries:
+    """Give what the zone adds to the predicted torque at the data set's rows."""
+    added = np.zeros_like(dataset.torque)
+    for stretch in dataset.stretches:
+        error = np.zeros_like(stretch.state.position)
+        error[:, joint] = zone.error(operating_point.torque(stretch.state)[:, joint])
+        added[stretch.rows] = stretch.filtered(error.T).T
+    return added

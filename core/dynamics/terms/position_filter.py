@@ -1,0 +1,99 @@
+"""Give the effect of low-passed positions: the torque of the motion as it was, minus that of the logged one.
+
+A zero-phase low-pass has the gain 1 / (1 + (T w)^(2 order)), so that the motion as it was is the logged one
+plus what its inverse adds: to first order in T^(2 order), what the same filter takes from the logged one. The
+column is the change of torque by that over T^(2 order), so that its linear parameter is T^(2 order) when the
+two agree. Source: Oppenheim & Schafer, Discrete-Time Signal Processing, ch. 7.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.fft import irfft, next_fast_len, rfft
+
+from ...arrays import JointSeries
+from ...robot.model import Parameter, RobotModel
+from ...signals.state import MotionState
+from ...signals.zero_phase import gain
+from ..prediction import Prediction
+from .effect import AllJointsTerm, step_of
+
+HIGHEST = 0.45
+"""Largest cut-off, as a share of the rate of the states: the kernel needs one below a half."""
+PERIODS = 3.0
+"""Periods of the cut-off by which a motion is continued at its ends."""
+
+
+@dataclass(frozen=True, eq=False)
+class PositionFilter(AllJointsTerm):
+    """Model positions behind a zero-phase low-pass whose order is 1 or 2; `around` is T^(2 order)."""
+
+    believed: Prediction
+    around: float
+    order: int = 1
+    most: int = 1
+    """Terms of the inverse's series in what the filter takes: its gain is at most their number."""
+    symbols = (("time_power", "s2", 0.0),)
+    kind = "position_filter"
+    has_memory = True
+    channel = True
+
+    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
+        """Give the power of the time constant, with its unit."""
+        return tuple(replace(own, unit=f"s{2 * self.order}") for own in super().parameters(robot))
+
+    def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
+        """Give the change of torque by what the filter took, per unit of T^(2 order)."""
+        del robot
+        taken = _taken(state, cutoff_hz(self.around, self.order), self.order, self.most)
+        change = np.zeros_like(state.position)
+        for joint in range(state.position.shape[1]):
+            shift = MotionState(*(part[:, [joint]] for part in _parts(taken)))
+            change += self.believed.change(state, joint, shift)
+            change[:, joint] += self.believed.rotor(joint + 1) * shift.acceleration[:, 0]
+            change[:, joint] += self.believed.viscous(joint + 1) * shift.velocity[:, 0]
+        return [change / self.around]
+
+
+def _parts(state: MotionState) -> tuple[JointSeries, JointSeries, JointSeries]:
+    """Give position, velocity and acceleration."""
+    return state.position, state.velocity, state.acceleration
+
+
+def cutoff_hz(time_power: float, order: int) -> float:
+    """Give the frequency at which the filter halves an amplitude, Hz.
+
+    Examples
+    --------
+    >>> round(cutoff_hz(1e-4, 1), 2)
+    15.92
+    """
+    return float(time_power ** (-0.5 / order) / (2.0 * np.pi))
+
+
+def time_power(cutoff: float, order: int) -> float:
+    """Give T^(2 order) of the cut-off, s^(2 order).
+
+    Examples
+    --------
+    >>> round(cutoff_hz(time_power(12.0, 2), 2), 6)
+    12.0
+    """
+    return float((2.0 * np.pi * cutoff) ** (-2 * order))
+
+
+def _taken(state: MotionState, cutoff: float, order: int, most: int) -> MotionState:
+    """Give what the inverse of the filter adds to a motion."""
+    rate = 1.0 / step_of(state)
+    reach = min(int(np.ceil(PERIODS * rate / cutoff)), len(state.position) - 1)
+    frequency = np.fft.rfftfreq(next_fast_len(len(state.position) + 2 * reach, real=True), 1.0 / rate)
+    passed = gain(frequency, cutoff_hz=min(cutoff, HIGHEST * rate), rate_hz=rate, order=order)
+    inverse = np.sum((1.0 - passed) ** np.arange(1.0, most + 1.0)[:, None], axis=0)
+
+    def added(series: JointSeries) -> JointSeries:
+        padded = np.pad(series, ((reach, reach), (0, 0)), mode="reflect", reflect_type="odd")
+        size = 2 * (len(frequency) - 1)
+        back = irfft(rfft(padded, size, axis=0) * inverse[:, None], size, axis=0)
+        return np.asarray(back[reach : reach + len(series)])
+
+    return MotionState(*(added(part) for part in _parts(state)))
