@@ -36,13 +36,10 @@ def limit_bandwidth(dataset_at: Callable[[float], Fitted]) -> Fitted:
         Gives the data set of a width (bandwidth over the motion's), the prediction of a plain fit to it, and
         the noise of its residual; refuses one of too few rows.
     """
-    width = BAND.over_motion
-    fitted = dataset_at(width)
-    narrowest = min(BAND.narrowest, identification_width(fitted[0]))
-    widest = max(narrowest, judged_width(fitted[0]))
-    if width > widest:
-        fitted = _narrowed(dataset_at, fitted, widest)
-        width = fitted[0].width
+    wide = dataset_at(BAND.over_motion)
+    narrowest = min(BAND.narrowest, identification_width(wide[0]))
+    fitted = _judged(dataset_at, wide, narrowest)
+    width = fitted[0].width
     even, even_shares = position_noise_torque(fitted, over_stamps=False)
     for _ in range(BAND.narrowings):
         dataset, share = fitted[0], float(np.max(even_shares))
@@ -60,6 +57,12 @@ def limit_bandwidth(dataset_at: Callable[[float], Fitted]) -> Fitted:
     dataset, operating_point, noise = fitted
     dataset = replace(dataset, position_torque=np.where(scattered_shares > even_shares, scattered, even))
     return dataset, operating_point, noise
+
+
+def _judged(dataset_at: Callable[[float], Fitted], fitted: Fitted, narrowest: float) -> Fitted:
+    """Narrow a data set to the band in which noise of the positions does not drown the motion."""
+    widest = max(narrowest, judged_width(fitted[0]))
+    return _narrowed(dataset_at, fitted, widest) if fitted[0].width > widest else fitted
 
 
 def _narrowed(dataset_at: Callable[[float], Fitted], fitted: Fitted, width: float) -> Fitted:

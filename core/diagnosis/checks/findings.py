@@ -15,14 +15,14 @@ from ..search.hypothesis import Hypothesis
 from ..search.likelihood_ratio import log_p_of
 from ..search.residuals import residual
 from ..search.state import SearchState
-from ..thresholds.checks import BLOCK_SCATTER, CONFIDENCE
+from ..thresholds.checks import BLOCK_SCATTER, CONFIDENCE, NOISE_WORTH
 from .alternatives import Comparison
 from .block_scatter import block_log_p
 from .command import command_evidence
 from .confidence import confidence, predictors
 from .figure import curve
 from .gain import gain
-from .noise_worth import may_be_noise, noise_evidence
+from .noise_worth import noise_worth
 from .plausible_size import has_known_size
 
 
@@ -53,8 +53,8 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
     at = Setting(dataset, fitter.operating_point, member.site, member.scalars)
     scattered = _between_blocks(fitter, chosen, index, own)
     represented = cause.represented(at, solved) and has_known_size(cause, solved)
-    noise = noise_evidence(fitter, chosen, own)
-    doubtful = own.margin < 0.0 or not represented or _scatters(scattered) or may_be_noise(own, noise)
+    noise = _of_noise(noise_worth(fitter, own.without, chosen, index))
+    doubtful = own.margin < 0.0 or not represented or _scatters(scattered) or _may_be(noise, own)
     return Finding(
         cause=cause.id,
         title=cause.title,
@@ -121,6 +121,24 @@ def _between_blocks(
 
 def _scatters(between_blocks: tuple[Evidence, ...]) -> bool:
     return any(one.value > float(np.log10(BLOCK_SCATTER.level)) for one in between_blocks)
+
+
+def _of_noise(worth: float | None) -> tuple[Evidence, ...]:
+    """Give what noise of the positions may account for; nothing of a finding that does not resemble it."""
+    if worth is None:
+        return ()
+    return (
+        Evidence(
+            "Log-likelihood ratio statistic that noise of the positions may account for; a finding of less "
+            f"than {NOISE_WORTH.times:g} times as much is doubtful",
+            "position noise",
+            worth,
+        ),
+    )
+
+
+def _may_be(noise: tuple[Evidence, ...], own: Comparison) -> bool:
+    return any(own.statistic < NOISE_WORTH.times * one.value for one in noise)
 
 
 def _on_holdout(

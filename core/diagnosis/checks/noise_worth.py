@@ -8,31 +8,19 @@ Source: Soderstrom, Errors-in-Variables Methods in System Identification (2018),
 
 import numpy as np
 
-from ..result import Evidence
 from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Hypothesis
 from ..search.likelihood_ratio import likelihood_ratio_by_joint, position_noise_by_joint
 from ..thresholds.checks import NOISE_WORTH
-from .alternatives import Comparison
 
 
-def noise_evidence(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison) -> tuple[Evidence, ...]:
-    """Give the statistic that noise may account for, on the joints that gain; none of other causes."""
-    if not own.member.cause.traits.like_position_noise:
-        return ()
-    gained = likelihood_ratio_by_joint(own.without, chosen)
+def noise_worth(fitter: HypothesisFitter, without: Hypothesis, whole: Hypothesis, index: int) -> float | None:
+    """Give the statistic that noise may account for, on the joints that a member helps.
+
+    None where the member does not resemble such noise.
+    """
+    if not whole.members[index].cause.traits.like_position_noise:
+        return None
+    gained = likelihood_ratio_by_joint(without, whole)
     helped = gained > NOISE_WORTH.least_gain * np.sum(np.maximum(gained, 0.0))
-    worth = float(np.sum(position_noise_by_joint(fitter, chosen)[helped]))
-    return (
-        Evidence(
-            "Log-likelihood ratio statistic that noise of the positions may account for; a finding of less "
-            f"than {NOISE_WORTH.times:g} times as much is doubtful",
-            "position noise",
-            worth,
-        ),
-    )
-
-
-def may_be_noise(own: Comparison, evidence: tuple[Evidence, ...]) -> bool:
-    """Tell whether a finding's statistic is not far above what noise may account for."""
-    return any(own.statistic < NOISE_WORTH.times * one.value for one in evidence)
+    return float(np.sum(position_noise_by_joint(fitter, whole)[helped]))

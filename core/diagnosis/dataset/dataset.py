@@ -207,8 +207,8 @@ def identification_width(dataset: Dataset) -> float:
 
 def judged_width(dataset: Dataset) -> float:
     """Give the ratio of the band in which noise of positions does not drown the motion to the motion's."""
-    beyond = BAND.drowned**0.2  # the power of an acceleration's noise grows with the fifth power of a band
-    return min(beyond * motion.recipe.outweighed_hz / motion.recipe.motion_band_hz for motion in dataset.motions)
+    recipes = [motion.recipe for motion in dataset.motions]
+    return BAND.drowned * min(recipe.outweighed_hz / recipe.motion_band_hz for recipe in recipes)
 
 
 def later_torque(dataset: Dataset, seconds: float) -> JointSeries:
