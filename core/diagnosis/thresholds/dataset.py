@@ -33,9 +33,9 @@ class Band:
     most_narrowing: float = 0.85
     """Largest factor of one narrowing."""
     drowned: float = 4.0
-    """Ratio of the band to that in which an acceleration holds as much noise as motion, at most. There noise has
-    a thousand times the power, which grows with the fifth power of a band, and directions of friction are at
-    random. Source: a measured pendulum whose causes are named has a ratio of 2.7."""
+    """Ratio of the band to that in which an acceleration holds as much noise as motion, at most. There noise
+    has a thousand times the power, which grows with the fifth power of a band, and directions of friction are
+    at random. Source: a measured pendulum whose causes are named has a ratio of 2.7."""
     retreats: tuple[float, ...] = (0.0, 0.5, 0.75)
     """Powers of the narrowing that is given up, tried in turn where too few rows would be left."""
     narrowings: int = 10
