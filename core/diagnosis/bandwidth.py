@@ -66,14 +66,11 @@ def _judged(dataset_at: Callable[[float], Fitted], fitted: Fitted, narrowest: fl
 
 
 def _narrowed(dataset_at: Callable[[float], Fitted], fitted: Fitted, width: float) -> Fitted:
-    """Narrow a data set; by less, or not at all, where too few rows would be left."""
-    actual = fitted[0].band_hz / fitted[0].motion_band_hz
-    for less in BAND.retreats:
-        try:
-            return dataset_at(width * (actual / width) ** less)
-        except ExcitationError:
-            continue
-    return fitted
+    """Narrow a data set; only to the usual least width, or not at all, where too few rows would be left."""
+    try:
+        return dataset_at(width)
+    except ExcitationError:
+        return dataset_at(BAND.narrowest) if fitted[0].width > BAND.narrowest > width else fitted
 
 
 def position_noise_torque(fitted: Fitted, *, over_stamps: bool) -> tuple[JointSeries, JointVector]:

@@ -9,6 +9,7 @@ from tests.hidden.score import Rate, brier, confusion, rate, reliability, score
 from tests.hidden.tables import tables
 from tests.plant.cases import Truth
 from tests.plant.effects.effect import Hidden
+from tests.plant.effects.registry import EFFECTS
 from tests.plant.sensors import NOISES
 
 STRIBECK = Truth(
@@ -184,7 +185,7 @@ def test_a_run_covers_all_kinds_strengths_and_every_cause():
     listed = orders(1, 300)
     assert {one.kind for one in listed} == {"single", "combination", "clean", "foreign"}
     assert {one.strength for one in listed if one.kind == "single"} == {0.3, 1.0, 3.0}
-    assert len({one.cause for one in listed if one.kind == "single"}) == 29
+    assert len({one.cause for one in listed if one.kind == "single"}) == len(EFFECTS)
     assert len({one.seed for one in listed}) == 300
     assert {one.noise for one in listed if one.kind == "clean"} == set(NOISES)
     assert {one.effects for one in listed if one.kind == "combination"} == {2, 3}

@@ -14,7 +14,7 @@ import numpy as np
 
 from tests.plant.controller import Steering, steer
 from tests.plant.effects.effect import Effect, Hidden, Signals, moves_the_robot, overriding
-from tests.plant.effects.registry import EFFECTS, FOREIGN
+from tests.plant.effects.registry import EFFECTS, FOREIGN, LATER
 from tests.plant.engine import Recording, simulate
 from tests.plant.excitation import draw_excitation
 from tests.plant.robots import ROBOTS, Arm, draw_arm
@@ -205,7 +205,8 @@ def _hidden(
     world: World, cause: str | None, strength: float, effects: int, rng: np.random.Generator
 ) -> list[tuple[Effect, Residue]]:
     """Draw effects, a given cause first, until there are enough; give none where there cannot be."""
-    names = [str(name) for name in rng.permutation([name for name in EFFECTS if name != cause])]
+    first = [name for name in EFFECTS if name not in LATER and name != cause]
+    names = [*(str(name) for name in rng.permutation(first)), *(name for name in LATER if name != cause)]
     hidden: list[tuple[Effect, Residue]] = []
     for name in ([cause] if cause else []) + names:
         found = _of_strength(world, name, strength, rng)

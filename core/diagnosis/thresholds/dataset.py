@@ -36,8 +36,6 @@ class Band:
     """Ratio of the band to that in which an acceleration holds as much noise as motion, at most. There noise
     has a thousand times the power, which grows with the fifth power of a band, and directions of friction are
     at random. Source: a measured pendulum whose causes are named has a ratio of 2.7."""
-    retreats: tuple[float, ...] = (0.0, 0.5, 0.75)
-    """Powers of the narrowing that is given up, tried in turn where too few rows would be left."""
     narrowings: int = 10
     """Narrowings at most: enough for a fifth of the widest band, and mostly for the identification's."""
     stamp_deviations: float = 6.0

@@ -1,4 +1,4 @@
-"""Hold what noise of the positions may account for to its laws, and the band to what rows are left."""
+"""Hold what noise of the positions may account for to its laws."""
 
 from dataclasses import replace
 
