@@ -33,7 +33,7 @@ EFFECTS: dict[str, type[Effect]] = {
 
 FIRST = 29
 LATER = tuple(EFFECTS)[FIRST:]
-"""Those that were added later. They are drawn last as further effects, so that a seed's case stays the same."""
+"""Those that were added later: drawn last as further effects, so that a seed's case stays the same."""
 
 PARAMETERS: dict[str, set[str]] = {cause: set(kind.parameters) for cause, kind in EFFECTS.items()}
 """The parameters of these causes, as the public document names them."""
