@@ -17,7 +17,7 @@ from ..dynamics.prediction import Prediction
 from ..errors import ExcitationError
 from ..robot.model import INERTIAL_SYMBOLS
 from .causes.sample_check import disturbance
-from .dataset.dataset import Dataset, identification_width, judged_width
+from .dataset.dataset import Dataset, drowning_width, identification_width
 from .regression.ar_noise import ARNoise, run_indices
 from .thresholds.dataset import BAND
 
@@ -38,7 +38,7 @@ def limit_bandwidth(dataset_at: Callable[[float], Fitted]) -> Fitted:
     """
     wide = dataset_at(BAND.over_motion)
     narrowest = min(BAND.narrowest, identification_width(wide[0]))
-    fitted = _judged(dataset_at, wide, narrowest)
+    fitted = _where_motion_shows(dataset_at, wide, narrowest)
     width = fitted[0].width
     even, even_shares = position_noise_torque(fitted, over_stamps=False)
     for _ in range(BAND.narrowings):
@@ -59,9 +59,9 @@ def limit_bandwidth(dataset_at: Callable[[float], Fitted]) -> Fitted:
     return dataset, operating_point, noise
 
 
-def _judged(dataset_at: Callable[[float], Fitted], fitted: Fitted, narrowest: float) -> Fitted:
+def _where_motion_shows(dataset_at: Callable[[float], Fitted], fitted: Fitted, narrowest: float) -> Fitted:
     """Narrow a data set to the band in which noise of the positions does not drown the motion."""
-    widest = max(narrowest, judged_width(fitted[0]))
+    widest = max(narrowest, drowning_width(fitted[0]))
     return _narrowed(dataset_at, fitted, widest) if fitted[0].width > widest else fitted
 
 

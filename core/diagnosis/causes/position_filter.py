@@ -17,6 +17,7 @@ ORDERS = (1, 2)
 GAINS = (1.0, 12.0)
 """Largest gains of the inverse: positions that were rounded or noisy after the filter bear a small one."""
 LOWEST, HIGHEST, STARTS = 1.5, 3.0, 8
+"""Ends of the first cut-offs over the motion's band and the data set's, and how many there are."""
 
 
 @dataclass(frozen=True)
@@ -54,10 +55,10 @@ class PositionFilter(OwnJointCause):
     def term(self, at: Setting) -> Term:
         """Give the columns."""
         order = int(at.scalars["order"])
-        most, least = (
+        slowest, fastest = (
             time_power(edge, order) for edge in (ADMISSIBLE.lowest_cutoff, ADMISSIBLE.highest_cutoff)
         )
-        around = min(max(at.scalars["around"], least), most)
+        around = min(max(at.scalars["around"], fastest), slowest)
         return PositionFilterTerm(0, at.operating_point, around, order, int(at.scalars["most"]))
 
     def admissible(self, solved: FittedCause) -> bool:

@@ -13,10 +13,10 @@ from scipy.stats import poisson
 
 from ...arrays import JointSeries, Samples
 from ...dynamics.prediction import Prediction
-from ...log.channels import EFFORTS
 from ...numerics.marked_runs import marked_runs
 from ...robot.joint_units import joint_unit
 from ...signals.condition import Motion
+from ...signals.resample import effort_of
 from ..dataset.dataset import Dataset
 from ..thresholds.dataset import ROWS, SAMPLE_CHECKS
 from .protocol import Quantity
@@ -101,8 +101,7 @@ def _zone(dataset: Dataset, number: int, joint: int) -> _Zone | None:
 def _efforts(motion: Motion, joint: int) -> tuple[Samples, Samples]:
     """Give stamps and torques of a joint as they were logged, over the log's beginning."""
     rows = motion.log.source.rows(0, min(motion.log.source.samples, int(ROWS.seconds * motion.log.rate_hz)))
-    effort = next(series for series in (getattr(rows, name) for name in EFFORTS) if series is not None)
-    return rows.time, effort[:, joint] * motion.effort_scale[joint]
+    return rows.time, effort_of(rows)[:, joint] * motion.effort_scale[joint]
 
 
 def _finding(dataset: Dataset, operating_point: Prediction, joint: int, zone: _Zone) -> SampleFinding:

@@ -205,8 +205,8 @@ def identification_width(dataset: Dataset) -> float:
     return min(recipe.cutoff_hz / recipe.motion_band_hz for recipe in recipes)
 
 
-def judged_width(dataset: Dataset) -> float:
-    """Give the ratio of the band in which noise of positions does not drown the motion to the motion's."""
+def drowning_width(dataset: Dataset) -> float:
+    """Give the ratio of the band beyond which noise of the positions drowns the motion to the motion's."""
     recipes = [motion.recipe for motion in dataset.motions]
     return BAND.drowned * min(recipe.outweighed_hz / recipe.motion_band_hz for recipe in recipes)
 

@@ -109,7 +109,8 @@ class NoiseWorth:
     times: float = 2.0
     """Ratio of a finding's likelihood ratio to what noise may account for, below which it is doubtful.
     Source: on sound logs of simulated arms with encoders of 0.01 to 0.1 degrees, delays and springs have 0.6
-    to 1.7; true ones of simulated logs have at least 2.8, on measured robots 5 and more."""
+    to 1.7; true ones of simulated logs have at least 2.8, on measured robots about 6 and more, but for a
+    UR10e, whose positions have less noise in the band than at high frequencies: a true delay has 0.1."""
     least_gain: float = 0.02
     """Share of what all joints gain, from which a joint's noise counts. Set by hand."""
 
