@@ -93,7 +93,8 @@ def _zone(dataset: Dataset, number: int, joint: int) -> _Zone | None:
     # How dense torques are changes with their size: by how much, the next as many show.
     next_width = float(sizes[min(2 * zeros, len(sizes)) - 1] - sizes[zeros - 1])
     scatter = half * float(np.sqrt(2.0 / len(runs)))
-    deviation = float(np.hypot(scatter, next_width - width)) if shrinks else float(sizes[1] - gap)
+    # The least of torques that lie so densely is one distance off the edge, by the exponential law.
+    deviation = float(np.hypot(scatter, next_width - width)) if shrinks else width / zeros
     share = zeros / (zeros + len(others))
     return _Zone(half, deviation, shrinks, zeros, share, max(p_value, 1e-300))
 

@@ -194,6 +194,7 @@ def test_a_dead_zone_is_found_on_its_channel_with_its_width_and_what_it_does_to_
     (found,) = findings("torque_dead_zone", spoilt)
     assert found.site == (1,)
     assert found.quantities[0].value == pytest.approx(DEAD, abs=within)
+    assert found.quantities[0].standard_deviation > 0.0
     assert words in found.statement
     held = operating_point()
     really = 1.0 - _mean_square(looked_at(recorded()), held) / _mean_square(looked_at(spoilt), held)
@@ -206,6 +207,15 @@ ZEROS: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "cut off to steps": lambda tau: DEAD * np.trunc(tau / DEAD),
     "missing": lambda tau: np.where(np.arange(len(tau)) % 50 < 3, 0.0, tau),
 }
+
+
+def test_a_dead_zone_of_rounded_torques_is_known_no_better_than_they_are_dense():
+    def rounded(torque: np.ndarray) -> np.ndarray:
+        return np.where(np.abs(torque) < DEAD, 0.0, np.round(torque, 2))
+
+    (found,) = findings("torque_dead_zone", with_torque(rounded))
+    (size,) = found.quantities
+    assert abs(size.value - DEAD) < 3.0 * size.standard_deviation < 0.05 * DEAD
 
 
 @pytest.mark.parametrize("how", ZEROS)
