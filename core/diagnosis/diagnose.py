@@ -21,6 +21,7 @@ from .checks.clipped_channel import ClippedChannel, clipped_channels
 from .checks.contact_at_rest import contacts_at_rest
 from .checks.findings import finding, sample_finding
 from .checks.holdout_outliers import Explained, has_holdout_outliers, with_other_holdout, with_typical_holdout
+from .checks.instruments import Instruments
 from .checks.kurtosis import bounded_residual
 from .checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
 from .checks.reservations import beside_dead_zones
@@ -64,7 +65,8 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     unnamed = _unnamed_pattern(found, after)
     statistic = 0.0 if unnamed is None else unnamed.statistic
     unnamed = _most_significant(unnamed, burst(dataset, after))
-    named = [finding(found, own, after, statistic) for own in comparisons]
+    instruments = Instruments(fitter, chosen)
+    named = [finding(found, own, after, statistic, instruments) for own in comparisons]
     findings = beside_dead_zones([*named, *faults])
     tell("predict the residual", 0.8)
     noise = tuple(joint.noise for joint in chosen.fit.joints)

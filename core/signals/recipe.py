@@ -110,6 +110,8 @@ class Recipe:
     motion_band_hz: float
     """Frequency below which the joints' velocities hold 99.5 % of their power, the largest over the
     joints."""
+    joint_bands_hz: JointVector
+    """The same of every joint; that of the log for those that stand."""
     rms_speed: JointVector
     still_speed: JointVector
     """Speed per joint, and the speed below which it counts as standing (rad/s or m/s)."""
@@ -177,6 +179,7 @@ def _choose(log: JointLog, options: FilterOptions, prismatic: Mask) -> Recipe:
         order=options.order,
         decimation=decimation,
         motion_band_hz=band,
+        joint_bands_hz=np.where(speeds > still_speed, bands, band),
         rms_speed=speeds,
         still_speed=still_speed,
         position_noise=survey.noise,

@@ -16,6 +16,9 @@ MOTION_SHARE = 0.995
 """Share of a joint's velocity power that its motion band holds."""
 LEAST_NOISE = 0.1 * (1.0 - MOTION_SHARE)
 """Share of the power that noise has to hold to be subtracted: less hardly widens the band. Set by hand."""
+ABOVE_NOISE = 4.0
+"""Ratio of a frequency's power to that of noise from which it holds motion: with less, what is left of noise
+adds up over all frequencies. Estimates of a spectrum scatter by less than this. Set by hand."""
 NOISY_SHARE = 0.4
 """Noise alone has half of its velocity's power above this share of the survey's low-pass."""
 _SURVEY_SECONDS = 60.0
@@ -59,8 +62,8 @@ def survey_of(log: JointLog, median_order: int) -> Survey:
     noisy = middles > NOISY_SHARE * _low_pass_hz(log.rate_hz)
     if not noisy.all():
         noise = _noise_power(positions, frequency, log.rate_hz, float(bands[~noisy].max()))
-        decides = noise.sum(axis=0) > LEAST_NOISE * power.sum(axis=0)
-        bands = _band(frequency, power - decides * noise, MOTION_SHARE)
+        noise *= noise.sum(axis=0) > LEAST_NOISE * power.sum(axis=0)
+        bands = _band(frequency, np.where(power > ABOVE_NOISE * noise, power - noise, 0.0), MOTION_SHARE)
     white = np.sqrt(np.mean([white_noise(position) ** 2 for position in positions], axis=0))
     return Survey(bands, speeds, noisy, white, positions, slowest)
 
@@ -75,10 +78,7 @@ def _noise_power(
 
 
 def _band(frequency: Vector, power: np.ndarray, share: float) -> JointVector:
-    """Give the frequency (Hz) below which a share of each joint's power lies.
-
-    What is left of noise of which the mean was subtracted has either sign, and adds up to little.
-    """
+    """Give the frequency (Hz) below which a share of each joint's power lies."""
     held = np.cumsum(power, axis=0)
     return np.array([frequency[np.argmax(total >= share * total.max())] for total in held.T])
 

@@ -15,18 +15,21 @@ from ..search.hypothesis import Hypothesis
 from ..search.likelihood_ratio import log_p_of
 from ..search.residuals import residual
 from ..search.state import SearchState
-from ..thresholds.checks import BLOCK_SCATTER, CONFIDENCE, NOISE_WORTH
+from ..thresholds.checks import BLOCK_SCATTER, CONFIDENCE
 from .alternatives import Comparison
 from .block_scatter import block_log_p
 from .command import command_evidence
 from .confidence import confidence, predictors
 from .figure import curve
 from .gain import gain
-from .noise_worth import noise_worth
+from .instruments import Instruments
 from .plausible_size import has_known_size
+from .position_noise import noise_test
 
 
-def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: float) -> Finding:
+def finding(
+    found: SearchState, own: Comparison, after: JointSeries, unnamed: float, instruments: Instruments
+) -> Finding:
     """Compose the finding of one member of the chosen hypothesis.
 
     Parameters
@@ -38,6 +41,8 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
     unnamed
         Likelihood ratio statistic of an unnamed pattern in what is left: where it is larger than the
         finding's, the finding may be no more than its trace.
+    instruments
+        Estimates the members by instrumental variables.
     """
     fitter, chosen, index = found.fitter, found.chosen, own.index
     dataset, left = fitter.dataset, (_baseline(fitter, chosen, index, own), after)
@@ -53,8 +58,9 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
     at = Setting(dataset, fitter.operating_point, member.site, member.scalars)
     scattered = _between_blocks(fitter, chosen, index, own)
     represented = cause.represented(at, solved) and has_known_size(cause, solved)
-    noise = _of_noise(noise_worth(fitter, own.without, chosen, index))
-    doubtful = own.margin < 0.0 or not represented or _scatters(scattered) or _may_be(noise, own)
+    noise = noise_test(fitter, own.without, instruments, index, own.statistic)
+    may_be_noise = noise is not None and noise.doubts
+    doubtful = own.margin < 0.0 or not represented or _scatters(scattered) or may_be_noise
     return Finding(
         cause=cause.id,
         title=cause.title,
@@ -70,7 +76,7 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
             *_evidence(own, log_p, member.trials),
             *_on_holdout(fitter, chosen, index, own),
             *scattered,
-            *noise,
+            *(() if noise is None else noise.evidence),
             *command_evidence(dataset.motions, cause.id, member.site),
         ),
         ambiguous_with=own.ambiguous,
@@ -121,24 +127,6 @@ def _between_blocks(
 
 def _scatters(between_blocks: tuple[Evidence, ...]) -> bool:
     return any(one.value > float(np.log10(BLOCK_SCATTER.level)) for one in between_blocks)
-
-
-def _of_noise(worth: float | None) -> tuple[Evidence, ...]:
-    """Give what noise of the positions may account for; nothing of a finding that does not resemble it."""
-    if worth is None:
-        return ()
-    return (
-        Evidence(
-            "Log-likelihood ratio statistic that noise of the positions may account for; a finding of less "
-            f"than {NOISE_WORTH.times:g} times as much is doubtful",
-            "position noise",
-            worth,
-        ),
-    )
-
-
-def _may_be(noise: tuple[Evidence, ...], own: Comparison) -> bool:
-    return any(own.statistic < NOISE_WORTH.times * one.value for one in noise)
 
 
 def _on_holdout(

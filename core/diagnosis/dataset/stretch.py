@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays import KeptSeries, Series
+from ...arrays import Indices, KeptSeries, Series
 from ...signals.parallel import ParallelFilter
 from ...signals.state import MotionState
 
@@ -24,6 +24,11 @@ class Stretch:
     def kept(self) -> int:
         """Count the decimated samples."""
         return int(self.rows.stop - self.rows.start)
+
+    @property
+    def instants(self) -> Indices:
+        """Say where the decimated samples lie in `state`."""
+        return self.first + self.parallel.decimation * np.arange(self.kept)
 
     def filtered(self, series: Series) -> KeptSeries:
         """Filter series of this stretch and keep its instants."""

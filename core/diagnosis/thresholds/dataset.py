@@ -23,6 +23,8 @@ class Band:
     """Rows per period of the band's edge."""
     states: float = 8.0
     """States per period of the band's edge: nothing above the position filter is left to alias."""
+    smooth_order: int = 4
+    """Order of the Butterworth filter that leaves a joint's own band alone."""
     order: int = 2
     """Order of the Butterworth filter: effects at a reversal ring for one period, not three."""
     noise_share: float = 0.05

@@ -8,20 +8,20 @@ from scipy.interpolate import CubicSpline
 
 from tests.core.diagnosis.scenes import fitter_of, recording, scene_of
 from veritorque.core.diagnosis.causes.protocol import Cause
-from veritorque.core.diagnosis.causes.spring_compensator import SpringCompensator
 from veritorque.core.diagnosis.causes.time_delay import TimeDelay
-from veritorque.core.diagnosis.checks.alternatives import compare_alternatives
+from veritorque.core.diagnosis.checks.alternatives import Comparison, compare_alternatives
 from veritorque.core.diagnosis.checks.findings import finding
-from veritorque.core.diagnosis.checks.noise_worth import noise_worth
+from veritorque.core.diagnosis.checks.instruments import Instruments
+from veritorque.core.diagnosis.checks.position_noise import NoiseTest, noise_worth
 from veritorque.core.diagnosis.search.likelihood_ratio import likelihood_ratio
 from veritorque.core.diagnosis.search.residuals import residual
 from veritorque.core.diagnosis.search.state import SearchState
-from veritorque.core.diagnosis.thresholds.checks import CONFIDENCE
+from veritorque.core.diagnosis.thresholds.checks import CONFIDENCE, POSITION_NOISE
 
 LATE_S = 4e-3
 
 
-def _worth(cause: Cause, noise: float) -> tuple[float, float | None]:
+def _worth(cause: Cause, noise: float) -> tuple[float, float]:
     """Give the statistic of a late torque's candidate, and what noise of a torque of such a size is worth."""
     time, position, torque = recording()
     late = CubicSpline(time, torque)(np.clip(time - LATE_S, time[0], None))
@@ -32,7 +32,7 @@ def _worth(cause: Cause, noise: float) -> tuple[float, float | None]:
     none = fitter.fit(())
     (best, *_) = fitter.scan(none)
     found = fitter.fit((best.candidate,), none)
-    return likelihood_ratio(none, found), noise_worth(fitter, none, found, 0)
+    return likelihood_ratio(none, found), noise_worth(fitter, none, found)
 
 
 def test_noise_is_worth_its_square_and_changes_no_statistic():
@@ -52,12 +52,11 @@ def test_a_delay_is_doubtful_below_twice_what_noise_is_worth(times, doubtful):
     (best, *_) = fitter.scan(none)
     state, (own,) = compare_alternatives(SearchState(fitter, none, fitter.fit((best.candidate,), none)))
     drawn = np.random.default_rng(2).normal(size=late[: len(fitter.dataset.time)].shape)
-    worth = noise_worth(_noisy(state, drawn).fitter, own.without, state.chosen, 0)
-    assert worth is not None
+    worth = noise_worth(_noisy(state, drawn).fitter, own.without, state.chosen)
     noisy = _noisy(state, drawn * np.sqrt(own.statistic / times / worth))
     after = residual(noisy.fitter, noisy.chosen)
-    assert finding(state, own, after, 0.0).confidence > CONFIDENCE.doubtful
-    assert (finding(noisy, own, after, 0.0).confidence <= CONFIDENCE.doubtful) == doubtful
+    assert _confidence(state, own, after) > CONFIDENCE.doubtful
+    assert (_confidence(noisy, own, after) <= CONFIDENCE.doubtful) == doubtful
 
 
 def _noisy(state: SearchState, drawn: np.ndarray) -> SearchState:
@@ -66,5 +65,20 @@ def _noisy(state: SearchState, drawn: np.ndarray) -> SearchState:
     return replace(state, fitter=replace(state.fitter, dataset=dataset))
 
 
-def test_a_cause_unlike_such_noise_is_not_weighed_against_it():
-    assert _worth(SpringCompensator(), 0.03)[1] is None
+def _confidence(state: SearchState, own: Comparison, after: np.ndarray) -> float:
+    return finding(state, own, after, 0.0, Instruments(state.fitter, state.chosen)).confidence
+
+
+@pytest.mark.parametrize("alike", [False, True])
+@pytest.mark.parametrize("little", [False, True])
+@pytest.mark.parametrize("seen", [False, True])
+@pytest.mark.parametrize(("differs", "mostly"), [(False, False), (True, False), (True, True)])
+def test_a_finding_is_doubtful_by_its_size_or_where_noise_may_be_all_of_it(
+    alike, little, seen, differs, mostly
+):
+    clear, unclear = np.log(POSITION_NOISE.level / 10.0), np.log(POSITION_NOISE.level * 10.0)
+    statistic = POSITION_NOISE.times * (0.9 if little else 1.1)
+    change = POSITION_NOISE.change * (1.1 if mostly else 0.9)
+    size, difference = (clear if seen else unclear), (clear if differs else unclear)
+    judged = NoiseTest(statistic, 1.0, size, difference, change, alike)
+    assert judged.doubts == (mostly or (little and (alike or differs or not seen)))
