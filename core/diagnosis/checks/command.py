@@ -2,7 +2,9 @@
 
 A drive makes the torque that it is asked for. So what a torque channel does to its signal shows beside the
 logged command, whatever the robot's model lacks. Both are filtered alike, and the torque is fitted by the
-command, shifted and multiplied, and a constant. Source: Ljung, System Identification (1999), ch. 10.
+command, shifted and multiplied, and a constant. A channel that follows its command closely has no filter:
+what is found as one is something else. Both may be recorded later than the positions.
+Source: Ljung, System Identification (1999), ch. 10.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -40,14 +42,21 @@ class Channel:
     gain_deviation: JointVector
     """Torque per unit of the command; all four NaN where a joint tells nothing."""
 
-    def late(self, site: Site) -> Iterator[Evidence]:
-        """Give the delay of a joint, or that of all joints together."""
+    def delay_at(self, site: Site) -> tuple[float, float] | None:
+        """Give the delay of a joint, or that of all joints together, and its deviation, s."""
         joints = np.array(site) - 1 if site else np.arange(len(self.delay))
         known = joints[np.isfinite(self.delay[joints]) & (self.delay_deviation[joints] > 0.0)]
         if not len(known):
-            return
+            return None
         weight = self.delay_deviation[known] ** -2.0
-        delay, doubt = float(weight @ self.delay[known] / weight.sum()), float(weight.sum() ** -0.5)
+        return float(weight @ self.delay[known] / weight.sum()), float(weight.sum() ** -0.5)
+
+    def late(self, site: Site) -> Iterator[Evidence]:
+        """State the delay of a joint, or that of all joints together."""
+        told = self.delay_at(site)
+        if told is None:
+            return
+        delay, doubt = told
         way = "behind" if delay > 0.0 else "ahead of"
         size = f"{number_text(1e3 * abs(delay), 3)} ± {number_text(1e3 * doubt)} ms"
         yield Evidence(
@@ -76,6 +85,13 @@ def command_evidence(motions: tuple[Motion, ...], cause: str, site: Site) -> tup
         return ()
     channel = channel_of(motions)
     return () if channel is None else tuple(_TOLD[cause](channel, site))
+
+
+def contradicted_by_command(motions: tuple[Motion, ...], cause: str, site: Site, lag: float) -> bool:
+    """Tell whether the command surely shows less than half of a lag (s) that was found of a torque filter."""
+    channel = channel_of(motions) if cause == TorqueFilterLag.id else None
+    told = None if channel is None else channel.delay_at(site)
+    return told is not None and told[0] + COMMAND.deviations * told[1] < COMMAND.least_shown * lag
 
 
 def channel_of(motions: tuple[Motion, ...]) -> Channel | None:

@@ -18,7 +18,7 @@ from ..search.state import SearchState
 from ..thresholds.checks import BLOCK_SCATTER, CONFIDENCE
 from .alternatives import Comparison
 from .block_scatter import block_log_p
-from .command import command_evidence
+from .command import command_evidence, contradicted_by_command
 from .confidence import confidence, predictors
 from .figure import curve
 from .gain import gain
@@ -59,8 +59,14 @@ def finding(
     scattered = _between_blocks(fitter, chosen, index, own)
     represented = cause.represented(at, solved) and has_known_size(cause, solved)
     noise = noise_test(fitter, own.without, instruments, index, own.statistic)
-    may_be_noise = noise is not None and noise.doubts
-    doubtful = own.margin < 0.0 or not represented or _scatters(scattered) or may_be_noise
+    doubts = (
+        own.margin < 0.0,
+        not represented,
+        _scatters(scattered),
+        noise is not None and noise.doubts,
+        contradicted_by_command(dataset.motions, cause.id, member.site, float(solved.values[0])),
+    )
+    sure = confidence(evidence)
     return Finding(
         cause=cause.id,
         title=cause.title,
@@ -68,7 +74,7 @@ def finding(
         cure=cause.cure,
         statement=cause.statement(solved),
         quantities=cause.quantities(solved),
-        confidence=min(confidence(evidence), CONFIDENCE.doubtful) if doubtful else confidence(evidence),
+        confidence=min(sure, CONFIDENCE.doubtful) if any(doubts) else sure,
         predictors=evidence,
         p_value=float(np.exp(log_p)),
         explained_fraction=_fraction(left, dataset.usable & ~dataset.held_out[:, None], joints),

@@ -175,6 +175,10 @@ class Command:
     """Joints of which the middle gain is that of sound channels."""
     blocks: int = 20
     """Contiguous blocks from whose scatter deviations are taken."""
+    least_shown: float = 0.5
+    """Share of a filter's lag that the command has to show."""
+    deviations: float = 3.0
+    """Standard deviations that are added to what it shows."""
 
 
 COMMAND, BLOCK_SCATTER, POSITION_NOISE = Command(), BlockScatter(), PositionNoise()

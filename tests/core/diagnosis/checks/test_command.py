@@ -5,8 +5,9 @@ import pytest
 
 from tests.plant.cases import World, draw_world
 from veritorque.core.diagnosis.causes.time_delay import TimeDelay
+from veritorque.core.diagnosis.causes.torque_filter_lag import TorqueFilterLag
 from veritorque.core.diagnosis.causes.torque_gain import TorqueGain
-from veritorque.core.diagnosis.checks.command import channel_of, command_evidence
+from veritorque.core.diagnosis.checks.command import channel_of, command_evidence, contradicted_by_command
 from veritorque.core.log.model import JointLog
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.signals.condition import condition
@@ -72,6 +73,19 @@ def test_a_log_without_command_and_a_cause_elsewhere_have_no_such_evidence(world
     plain = log_from_arrays("plain", signals.time, signals.position, signals.torque)
     assert channel_of(motion_of(world, plain)) is None
     assert command_evidence(motion_of(world, logged(world)), "friction_stribeck", (1,)) == ()
+
+
+@pytest.mark.parametrize(("delay", "denied"), [(0.0, True), (0.002, True), (0.004, False), (0.006, False)])
+def test_a_filter_of_which_the_command_shows_less_than_half_is_denied(world, delay, denied):
+    motions = motion_of(world, logged(world, delay=delay))
+    assert contradicted_by_command(motions, TorqueFilterLag.id, (2,), 0.006) == denied
+    assert not contradicted_by_command(motions, TimeDelay.id, (2,), 0.006)
+
+
+def test_a_log_without_command_denies_nothing(world):
+    signals = world.signals(())
+    plain = log_from_arrays("plain", signals.time, signals.position, signals.torque)
+    assert not contradicted_by_command(motion_of(world, plain), TorqueFilterLag.id, (2,), 0.006)
 
 
 def test_a_finding_of_a_delay_states_what_the_command_says(world):
