@@ -86,6 +86,25 @@ def test_numbers_are_read_as_people_write_them_and_written_as_they_read_them(loo
     assert page.evaluate(write, values) == shown
 
 
+def test_an_estimate_is_shown_to_the_place_of_its_deviation(look, service):
+    write = """async (pairs) => {
+      const { measured } = await import("/static/base/words.js");
+      return pairs.map(([value, deviation]) => measured(value, deviation));
+    }"""
+    shown = {
+        (0.12344, 0.00678): "0.1234 ± 0.0068",
+        (1234.2, 95): "1234 ± 95",
+        (-1.234e-5, 2.5e-7): f"({MINUS}1.234 ± 0.025)e{MINUS}5",
+        (3.2e-5, 0.02): "0.000 ± 0.020",
+        (12, 0.0996): "12.00 ± 0.10",
+        (2.5e6, 1e5): "(2.50 ± 0.10)e6",
+        (-2.5, None): f"{MINUS}2.5",
+        (0, 0): "0",
+        (None, 0.1): "–",  # noqa: RUF001  (as it is shown)
+    }
+    assert look(service).open("/new").evaluate(write, list(shown)) == list(shown.values())
+
+
 def test_a_cell_that_is_no_number_is_named_and_one_that_is_refused_is_marked(look, service):
     seen = look(service)
     seen.statuses.add(422)

@@ -15,6 +15,21 @@ export function number(value, digits = 4) {
   return text.replaceAll("-", "−");
 }
 
+/**
+ * An estimate with its standard deviation: the deviation to two digits, the value to the same place, and one
+ * power of ten for both where they are tiny or huge.
+ */
+export function measured(value, deviation) {
+  if (value === null || !Number.isFinite(value) || !Number.isFinite(deviation) || !(deviation > 0)) return number(value);
+  const size = Math.floor(Math.log10(Math.max(Math.abs(value), deviation)));
+  const last = Math.floor(Math.log10(Number(deviation.toExponential(1)))) - 1;
+  const power = size < -3 || size >= 6 ? size : 0;
+  const places = Math.max(0, power - last);
+  const [own, spread] = [value, deviation].map((one) => (one / 10 ** power).toFixed(Math.min(places, 20)));
+  const text = power ? `(${own} ± ${spread})e${power}` : `${own} ± ${spread}`;
+  return text.replaceAll("-", "−");
+}
+
 /** A whole number with thin spaces between thousands. */
 export function count(value) {
   return Math.round(value)

@@ -4,7 +4,7 @@ import { draw } from "../drawing/plot.js";
 import { showError } from "../base/problem.js";
 import { tracesOf } from "./traces.js";
 import { wide } from "../drawing/wide.js";
-import { number, plain, plural, relative } from "../base/words.js";
+import { measured, number, plain, plural, relative } from "../base/words.js";
 
 const REAL = 3;
 const WIDEST = 10;
@@ -131,7 +131,7 @@ function table(studies, rows) {
     wide(element("table", { class: "parameters narrow" }, heads("Parameter", ["Difference", "z", element("span", { class: "visually-hidden" }, "z, drawn")]),
       element("tbody", {}, rows.map((row) => element("tr", {},
         element("th", { scope: "row" }, row.name, " ", element("span", { class: "unit" }, row.unit === "1" ? "" : row.unit)),
-        [row.left, row.right].map((one) => element("td", {}, `${number(one.value)} ± ${number(one.standard_deviation, 2)}`)),
+        [row.left, row.right].map((one) => element("td", {}, measured(one.value, one.standard_deviation))),
         element("td", {}, number(row.difference, 3)),
         element("td", { class: Math.abs(row.z) > REAL ? "poor" : null }, `${row.z > 0 ? "+" : ""}${number(row.z, 2)}`),
         element("td", {}, lollipop(row.z)))))), "Parameters"),

@@ -3,7 +3,7 @@ import { follow } from "../base/api.js";
 import { element, fill } from "../base/dom.js";
 import { warnings } from "./headline.js";
 import { scrolling } from "../drawing/wide.js";
-import { number, plural, relative } from "../base/words.js";
+import { measured, number, plural, relative } from "../base/words.js";
 
 // Standard deviations, the larger of the two, from which two estimates are marked as different.
 const CLEAR = 3;
@@ -86,7 +86,7 @@ function showParameters(container, { document }) {
 
 function value(own, first) {
   const deviation = own.standard_deviation;
-  const text = `${number(own.value)}${deviation === null ? "" : ` ± ${number(deviation, 2)}`}`;
+  const text = measured(own.value, deviation);
   const apart = Math.abs(own.value - first.value) > CLEAR * Math.max(deviation ?? Infinity, first.standard_deviation ?? Infinity);
   return apart ? element("strong", {}, text) : text;
 }
