@@ -114,6 +114,8 @@ class SearchTraits:
     says little about it."""
     like_position_noise: bool = False
     """Whether position noise, propagated to the torque, resembles it a little."""
+    at_peaks: bool = False
+    """Whether it acts beyond a level only, which a smoothed motion hardly passes."""
     linearisation_error: float = LINEARISATION.usual
     """Relative error of its first-order columns: no size is known better."""
     self_consistent: tuple[str, ...] = ()

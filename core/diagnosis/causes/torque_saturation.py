@@ -10,7 +10,7 @@ from ...dynamics.terms.torque_saturation import Saturation
 from ...robot.joint_units import joint_unit
 from ...robot.model import RobotModel
 from ..thresholds.causes import ADMISSIBLE
-from .protocol import FittedCause, Numbers, Quantity, Scalars, Setting, Site, number_text
+from .protocol import FittedCause, Numbers, Quantity, Scalars, SearchTraits, Setting, Site, number_text
 from .shared.own_joint import OwnJointCause
 
 SHARES = (0.55, 0.65, 0.74, 0.81, 0.86, 0.9, 0.93, 0.95, 0.967, 0.98, 0.99)
@@ -27,6 +27,7 @@ class TorqueSaturation(OwnJointCause):
     units = (("limit", "N m"),)
     experiment = "the same motion a tenth slower, which keeps the command below the limit"
     coordinate = "torque"
+    traits = SearchTraits(at_peaks=True)
 
     def grid(self, at: Setting) -> Sequence[Scalars]:
         """Scan the limit below the largest torque of the motion."""

@@ -74,7 +74,7 @@ class NoiseTest:
 def noise_test(
     fitter: HypothesisFitter, without: Hypothesis, instruments: Instruments, index: int, statistic: float
 ) -> NoiseTest | None:
-    """Test a member of the hypothesis that instruments estimate; None for a transient one.
+    """Test a member of the hypothesis that instruments estimate; None where smooth motion hardly shows it.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def noise_test(
     """
     whole = instruments.whole
     traits = whole.members[index].cause.traits
-    if traits.transient:
+    if traits.transient or traits.at_peaks:
         return None
     return NoiseTest(
         statistic,

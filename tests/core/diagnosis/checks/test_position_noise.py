@@ -9,10 +9,11 @@ from scipy.interpolate import CubicSpline
 from tests.core.diagnosis.scenes import fitter_of, recording, scene_of
 from veritorque.core.diagnosis.causes.protocol import Cause
 from veritorque.core.diagnosis.causes.time_delay import TimeDelay
+from veritorque.core.diagnosis.causes.torque_saturation import TorqueSaturation
 from veritorque.core.diagnosis.checks.alternatives import Comparison, compare_alternatives
 from veritorque.core.diagnosis.checks.findings import finding
 from veritorque.core.diagnosis.checks.instruments import Instruments
-from veritorque.core.diagnosis.checks.position_noise import NoiseTest, noise_worth
+from veritorque.core.diagnosis.checks.position_noise import NoiseTest, noise_test, noise_worth
 from veritorque.core.diagnosis.search.likelihood_ratio import likelihood_ratio
 from veritorque.core.diagnosis.search.residuals import residual
 from veritorque.core.diagnosis.search.state import SearchState
@@ -82,3 +83,13 @@ def test_a_finding_is_doubtful_by_its_size_or_where_noise_may_be_all_of_it(
     size, difference = (clear if seen else unclear), (clear if differs else unclear)
     judged = NoiseTest(statistic, 1.0, size, difference, change, alike)
     assert judged.doubts == (mostly or (little and (alike or differs or not seen)))
+
+
+@pytest.mark.parametrize(("cause", "judged"), [(TorqueSaturation, False), (TimeDelay, True)])
+def test_what_a_smooth_motion_does_not_reach_is_not_held_against_it(cause, judged):
+    fitter = fitter_of(scene_of(*recording()), (cause(),))
+    none = fitter.fit(())
+    (best, *_) = fitter.scan(none)
+    found = fitter.fit((best.candidate,), none)
+    test = noise_test(fitter, none, Instruments(fitter, found), 0, likelihood_ratio(none, found))
+    assert (test is not None) == judged
