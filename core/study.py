@@ -258,7 +258,11 @@ def _explain(
     last = _scale_progress(tell, 0.8, 0.15)
     conflicts, doubted = settled.conflicts, bool(contradictions(before))
     found = with_reservations(
-        found, open_conflict=conflicts.is_open, doubted=doubted, rescaled=conflicts.estimates_a_factor
+        found,
+        open_conflict=conflicts.is_open,
+        doubted=doubted,
+        rescaled=conflicts.estimates_a_factor,
+        promising=conflicts.promising,
     )
     plain = problem if reference is None else replace(problem, prior=reference.prior)
     found, proof = verified(found, options, plain, lambda: tell("verify", 0.78))

@@ -10,6 +10,8 @@ from .path import FoundConflict
 from .samples import sampled
 from .search import find_conflicts
 from .setup import Setup
+from .steps import least_squares_gain
+from .thresholds import DECISION
 from .time_base import stamp_factor
 from .trial import Trials
 
@@ -26,6 +28,9 @@ class Conflicts:
     """Whether the corrections were applied before anything else was computed."""
     searched: bool = True
     """Whether anything was in doubt, so that corrections were searched."""
+    promising: float = 0.0
+    """By how much the mean logarithm of the joints' errors falls under the best other set-up, where too few
+    rows judge it to call it a conflict; 0 where that is less than a conflict has to gain."""
 
     @property
     def is_open(self) -> bool:
@@ -54,7 +59,9 @@ def check(
     described = Setup.as_described(problem.base.model.robot)
     factor = next((factor for factor in factors if factor is not None), None)
     if factor is None:
-        return Conflicts(find_conflicts(described, trials), factors)
+        found = find_conflicts(described, trials)
+        gain = 0.0 if found else least_squares_gain(described, trials)
+        return Conflicts(found, factors, promising=gain if gain > DECISION.least_gain else 0.0)
     by_velocity = find_conflicts(described.with_clock(1.0 / factor), trials)
     found = _alike(find_conflicts(described, trials), by_velocity) if by_velocity else ()
     return Conflicts(found, factors)

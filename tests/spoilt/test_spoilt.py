@@ -35,6 +35,8 @@ def _problem(path, table):
 @pytest.mark.parametrize(
     ("seed", "number", "ways"),
     [
+        # Too few rows judge the gear, which least squares sees: a spring made up for it.
+        (1, 0, ("geared",)),
         (1, 60, ("cut_torque",)),
         (1, 36, ("degrees",)),
         (1, 9, ("zeros_inside",)),

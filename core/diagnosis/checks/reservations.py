@@ -11,12 +11,12 @@ import numpy as np
 
 from ..causes.torque_dead_zone import TorqueDeadZone
 from ..causes.torque_gain import TorqueGain
-from ..result import Diagnosis, Finding
+from ..result import Diagnosis, Evidence, Finding
 from ..thresholds.checks import CONFIDENCE, RESIDUAL, VERDICT
 
 
 def with_reservations(
-    found: Diagnosis, *, open_conflict: bool, doubted: bool, rescaled: bool = False
+    found: Diagnosis, *, open_conflict: bool, doubted: bool, rescaled: bool = False, promising: float = 0.0
 ) -> Diagnosis:
     """Limit confidences and verdict.
 
@@ -29,12 +29,16 @@ def with_reservations(
     rescaled
         Whether a torque was multiplied by an estimated factor. Gains are relative: whichever joint one is
         found on, it may be the estimate's error.
+    promising
+        By how much the mean logarithm of the joints' errors would fall under another set-up that too few rows
+        judge. Where all findings gain less, it is the better explanation.
     """
     failed = open_conflict or any(_joints_not_fitted(found))
     findings = tuple(
         as_doubtful(finding) if failed or (rescaled and finding.cause == TorqueGain.id) else finding
         for finding in found.findings
     )
+    findings = beside_another_setup(findings, promising)
     claims_nothing = found.verdict == "nothing_found" and (failed or doubted)
     return replace(
         found,
@@ -62,6 +66,38 @@ def beside_dead_zones(findings: Sequence[Finding]) -> list[Finding]:
         return as_doubtful(finding) if spoilt > finding.explained_fraction else finding
 
     return [limited(finding) for finding in findings]
+
+
+def beside_another_setup(findings: Sequence[Finding], promising: float) -> tuple[Finding, ...]:
+    """Limit findings that enter the model where another set-up explains more than all findings together.
+
+    Parameters
+    ----------
+    promising
+        By how much that lowers the mean logarithm of the joints' errors.
+    """
+    gained = sum(map(_mean_log_gain, findings))
+    evidence = Evidence(
+        "By how much another set-up of robot and log would lower the mean logarithm of the joints' errors: "
+        f"more than all findings do ({gained:.2g}); the log is too short to decide for it",
+        "another set-up",
+        promising,
+    )
+    return tuple(
+        as_doubtful(replace(finding, evidence=(*finding.evidence, evidence)))
+        if promising > max(gained, 0.0) and finding.member is not None
+        else finding
+        for finding in findings
+    )
+
+
+def _mean_log_gain(finding: Finding) -> float:
+    """Give by how much a finding lowers the mean logarithm of the joints' errors on held-out rows."""
+    if finding.gain is None:
+        return 0.0
+    least = np.finfo(float).tiny  # a joint that stands leaves nothing, with and without
+    before, after = (np.maximum(rms, least) for rms in (finding.gain.before, finding.gain.after))
+    return float(np.mean(np.log(before / after)))
 
 
 def as_doubtful(finding: Finding) -> Finding:

@@ -1,4 +1,4 @@
-"""A finding beside a torque channel with a dead zone is doubtful where that accounts for more."""
+"""A finding is doubtful where a dead zone of the torque, or another set-up, accounts for more."""
 
 from dataclasses import replace
 
@@ -12,9 +12,10 @@ from veritorque.core.diagnosis.causes.protocol import Cause, Site
 from veritorque.core.diagnosis.causes.sample_check import SampleFinding
 from veritorque.core.diagnosis.causes.torque_dead_zone import TorqueDeadZone
 from veritorque.core.diagnosis.checks.findings import sample_finding
-from veritorque.core.diagnosis.checks.reservations import beside_dead_zones
-from veritorque.core.diagnosis.result import Finding
+from veritorque.core.diagnosis.checks.reservations import beside_another_setup, beside_dead_zones
+from veritorque.core.diagnosis.result import Finding, Gain
 from veritorque.core.diagnosis.search.hypothesis import Candidate
+from veritorque.core.diagnosis.thresholds.checks import CONFIDENCE
 
 SURE = 0.97
 
@@ -45,3 +46,34 @@ def test_what_a_dead_zone_accounts_for_is_named_with_reserve(cause, site, zone, 
     limited, dead = beside_dead_zones([found(cause, site, 0.3), found(TorqueDeadZone(), (zone,), share)])
     assert dead.confidence == pytest.approx(SURE)
     assert limited.confidence == pytest.approx(0.5 if doubtful else SURE)
+
+
+GAINED = 0.2
+"""Mean logarithm of the joints' errors that the finding of the next test gains."""
+
+
+def test_a_finding_that_gains_nothing_stands_where_no_other_set_up_is_better():
+    ones = np.ones(3)
+    gain = Gain(ones, 1.1 * ones, -10.0 * ones, -10.0, (-12.0, -8.0))
+    own = replace(found(ExternalContact(), (3,), 0.3), gain=gain)
+    assert beside_another_setup([own], 0.0) == (own,)
+
+
+@pytest.mark.parametrize(
+    ("promising", "joins", "doubtful"),
+    [
+        (0.0, True, False),
+        (0.9 * GAINED, True, False),
+        (1.1 * GAINED, True, True),
+        (1.1 * GAINED, False, False),
+    ],
+    ids=["no other set-up", "a worse one", "a better one", "a better one beside faulty samples"],
+)
+def test_what_another_set_up_explains_better_is_named_with_reserve(promising, joins, doubtful):
+    before = np.array([1.0, 2.0, 0.0])
+    gain = Gain(before, before * np.exp([-3.0 * GAINED, 0.0, 0.0]), np.zeros(3), 0.0, (0.0, 0.0))
+    own = replace(found(FrictionLoadDependent(), (1,), 0.3), gain=gain)
+    own = own if joins else replace(own, member=None)
+    (said,) = beside_another_setup([own], promising)
+    assert said.confidence == pytest.approx(CONFIDENCE.doubtful if doubtful else SURE)
+    assert ("another set-up" in {one.statistic for one in said.evidence}) == doubtful
