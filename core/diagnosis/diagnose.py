@@ -22,6 +22,7 @@ from .checks.contact_at_rest import contacts_at_rest
 from .checks.findings import finding, sample_finding
 from .checks.holdout_outliers import Explained, has_holdout_outliers, with_other_holdout, with_typical_holdout
 from .checks.kurtosis import bounded_residual
+from .checks.lagging_reference import beside_reference, lagging_reference
 from .checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
 from .checks.reservations import beside_dead_zones
 from .dataset.dataset import Dataset, build_dataset, later_torque, refuse_too_little, refuse_unjudged
@@ -58,6 +59,7 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     found = restart_from_alignment(found, partial(later_torque, plain.dataset))
     found = drop_what_motion_does_not_show(found, partial(_dataset, problem))
     tell("compare alternatives", 0.6)
+    lagging = lagging_reference(found)
     found, comparisons = _compare(found)
     fitter, chosen, dataset = found.fitter, found.chosen, found.fitter.dataset
     after = residual(fitter, chosen)
@@ -65,18 +67,18 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     statistic = 0.0 if unnamed is None else unnamed.statistic
     unnamed = _most_significant(unnamed, burst(dataset, after))
     named = [finding(found, own, after, statistic) for own in comparisons]
-    findings = beside_dead_zones([*named, *faults])
+    findings = beside_reference(beside_dead_zones([*named, *faults]), lagging)
     tell("predict the residual", 0.8)
     noise = tuple(joint.noise for joint in chosen.fit.joints)
     predictable = predictable_share(dataset, after, fitter.operating_point, noise)
     tell("prepare figures", 0.95)
     most = max((own.statistic for own in comparisons), default=0.0)
     return Diagnosis(
-        verdict=_verdict(findings, predictable, unnamed, most),
+        verdict="unexplained" if lagging else _verdict(findings, predictable, unnamed, most),
         findings=tuple(sorted(findings, key=lambda finding: finding.p_value)),
         not_identifiable=_not_identifiable(found),
         predictable=predictable,
-        unnamed_pattern=unnamed,
+        unnamed_pattern=lagging or unnamed,
         atlas=atlas(dataset, after, fitter.operating_point, noise),
         dataset=dataset,
         operating_point=fitter.operating_point,

@@ -24,6 +24,7 @@ from .figure import curve
 from .gain import gain
 from .noise_worth import noise_worth
 from .plausible_size import has_known_size
+from .spring_resonance import contradicts_resonance, resonance_evidence
 
 
 def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: float) -> Finding:
@@ -54,7 +55,9 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
     scattered = _between_blocks(fitter, chosen, index, own)
     represented = cause.represented(at, solved) and has_known_size(cause, solved)
     noise = _of_noise(noise_worth(fitter, own.without, chosen, index))
-    doubtful = own.margin < 0.0 or not represented or _scatters(scattered) or _may_be(noise, own)
+    doubtful = min(own.margin, own.over_unnamed) < 0.0 or not represented or _scatters(scattered)
+    resonance = resonance_evidence(cause.id, at, solved)
+    doubtful |= _may_be(noise, own) or contradicts_resonance(resonance, solved)
     return Finding(
         cause=cause.id,
         title=cause.title,
@@ -71,6 +74,7 @@ def finding(found: SearchState, own: Comparison, after: JointSeries, unnamed: fl
             *_on_holdout(fitter, chosen, index, own),
             *scattered,
             *noise,
+            *resonance,
             *command_evidence(dataset.motions, cause.id, member.site),
         ),
         ambiguous_with=own.ambiguous,
