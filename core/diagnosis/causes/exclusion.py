@@ -161,6 +161,12 @@ DOUBTS: tuple[Exclusion, ...] = (
         "what resonates is then not the link on its spring: a base that gives or a load that swings",
     ),
     Exclusion(
+        "torque_ripple",
+        f"the motion shows less than {ADMISSIBLE.ripple_waves:g} waves, or their number per revolution is "
+        f"within {ADMISSIBLE.significant:g} standard deviations of {ADMISSIBLE.ripple_harmonic:g}",
+        "so little of a wave may be any other torque over the angle, as of a hose or a spring balance",
+    ),
+    Exclusion(
         "time_delay",
         "the torque is ahead of the positions by less than one sample",
         "a controller holds a torque until its next sample: it acts half a sample later than it is logged",

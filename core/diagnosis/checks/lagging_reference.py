@@ -25,6 +25,8 @@ from .unnamed_pattern import is_loop
 def lagging_reference(found: SearchState) -> UnnamedPattern | None:
     """Give the loop, if loops explain the torque better than all presliding friction that a search found.
 
+    A recorder that logs the reference does so on all joints: more than half of them have to lag.
+
     Parameters
     ----------
     found
@@ -37,15 +39,16 @@ def lagging_reference(found: SearchState) -> UnnamedPattern | None:
         return None
     without = fitter.fit(others)
     loops = [candidate for candidate in unnamed_candidates(fitter) if is_loop(candidate.scalars)]
-    now, clearest = without, (0.0, without, without)
+    now, clearest, lagging = without, (0.0, without, without), 0
     for site in sites:
         trial = best_unnamed_pattern(fitter, now, tuple(one for one in loops if one.site == site))
         if trial is not None:
             clearest = max(clearest, (likelihood_ratio(now, trial), now, trial), key=lambda step: step[0])
-            now = trial
+            now, lagging = trial, lagging + 1
     # Both have a size and a scalar per joint: no criterion has to weigh one number against another.
     lead = likelihood_ratio(without, now) - likelihood_ratio(without, chosen)
-    return _pattern(found, *clearest) if now is not without and lead > SELECTION.undecided else None
+    many = 2 * lagging > fitter.dataset.joints
+    return _pattern(found, *clearest) if many and lead > SELECTION.undecided else None
 
 
 def beside_reference(findings: Sequence[Finding], lagging: UnnamedPattern | None) -> list[Finding]:

@@ -152,6 +152,7 @@ def _read(scalars: Scalars) -> tuple[str, Numbers]:
 
 
 def _pattern_words(pattern: str, numbers: Numbers) -> str:
+    """Say what a residual follows; what has one number needs it alone."""
     if pattern == "speeds":
         first, second = (int(joint) for joint in numbers)
         return (
@@ -170,15 +171,12 @@ def _pattern_words(pattern: str, numbers: Numbers) -> str:
             f"a wave over joint {int(numbers[0])}'s angle ({numbers[1]:g} per revolution)"
             f"{factor[int(numbers[2])]}"
         )
-    if pattern == "clock":
-        return f"a period of {1.0 / numbers[0]:.3g} s, independent of the motion"
-    if pattern == "friction":
-        return f"its own friction, which switches at {numbers[0]:.3g} s"
-    if pattern == "loop":
-        return (
-            f"its dry friction as it would be if the joint lagged behind the logged positions, in a loop of "
-            f"about {numbers[0]:.2g} Hz"
-        )
     if pattern == "levels":
         return "two levels between which it switches by itself"
-    return f"an oscillation at about {numbers[0]:.2g} Hz, independent of the motion"
+    return {
+        "clock": f"a period of {1.0 / numbers[0]:.3g} s, independent of the motion",
+        "friction": f"its own friction, which switches at {numbers[0]:.3g} s",
+        "swing": f"an oscillation at about {numbers[0]:.2g} Hz, independent of the motion",
+        "loop": "its dry friction as it would be if the joint lagged behind the logged positions, in a loop "
+        f"of about {numbers[0]:.2g} Hz",
+    }[pattern]
