@@ -24,7 +24,9 @@ from .checks.holdout_outliers import Explained, has_holdout_outliers, with_other
 from .checks.instruments import Instruments
 from .checks.kurtosis import bounded_residual
 from .checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
+from .checks.lagging_reference import beside_reference, lagging_reference
 from .checks.reservations import beside_dead_zones
+from .checks.spring_resonance import beside_what_swings
 from .dataset.dataset import Dataset, build_dataset, later_torque, refuse_too_little, refuse_unjudged
 from .problem import DiagnosisProblem
 from .residual.atlas import atlas
@@ -59,6 +61,7 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     found = restart_from_alignment(found, partial(later_torque, plain.dataset))
     found = drop_what_motion_does_not_show(found, partial(_dataset, problem))
     tell("compare alternatives", 0.6)
+    lagging = lagging_reference(found)
     found, comparisons = _compare(found)
     fitter, chosen, dataset = found.fitter, found.chosen, found.fitter.dataset
     after = residual(fitter, chosen)
@@ -67,18 +70,19 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     unnamed = _most_significant(unnamed, burst(dataset, after))
     instruments = Instruments(fitter, chosen)
     named = [finding(found, own, after, statistic, instruments) for own in comparisons]
-    findings = beside_dead_zones([*named, *faults])
+    findings = beside_reference(beside_dead_zones([*named, *faults]), lagging)
+    findings, swings = beside_what_swings(findings)
     tell("predict the residual", 0.8)
     noise = tuple(joint.noise for joint in chosen.fit.joints)
     predictable = predictable_share(dataset, after, fitter.operating_point, noise)
     tell("prepare figures", 0.95)
     most = max((own.statistic for own in comparisons), default=0.0)
     return Diagnosis(
-        verdict=_verdict(findings, predictable, unnamed, most),
+        verdict="unexplained" if lagging or swings else _verdict(findings, predictable, unnamed, most),
         findings=tuple(sorted(findings, key=lambda finding: finding.p_value)),
         not_identifiable=_not_identifiable(found),
         predictable=predictable,
-        unnamed_pattern=unnamed,
+        unnamed_pattern=lagging or unnamed,
         atlas=atlas(dataset, after, fitter.operating_point, noise),
         dataset=dataset,
         operating_point=fitter.operating_point,

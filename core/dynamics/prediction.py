@@ -115,6 +115,10 @@ class Prediction:
         """Give the viscous friction of a joint (from 1)."""
         return self._sum_of("FV", joint)
 
+    def coulomb(self, joint: int) -> float:
+        """Give the Coulomb friction of a joint (from 1)."""
+        return self._sum_of("FC", joint)
+
     def friction(self, state: MotionState) -> JointSeries:
         """Give the torque of all terms but moving masses, N m or N."""
         light = (

@@ -32,7 +32,7 @@ SOURCES = {
     "shapes": "from the shapes of its description",
     "axes": "assumed from the distances between axes",
 }
-DOUBTFUL = ("implausible_unit", "velocity_mismatch", ONE_DIRECTION)
+DOUBTFUL = ("implausible_unit", "velocity_mismatch", "position_is_reference", ONE_DIRECTION)
 """Defects of a log by which values are wrong, or not known, however well the model fits."""
 LEAST_SQUARES = ("sdp", "wls", "irls", "ols")
 """Estimators that noise of columns biases."""

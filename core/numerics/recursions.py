@@ -284,3 +284,34 @@ def move_between_stops(pulls, step, half_width, twist) -> None:  # pragma: no co
         if position != free:
             rate = 0.0
         twist[sample] = position
+
+
+@njit("void(float64[::1], float64[::1], float64, UniTuple(float64, 4), float64[::1])", **_EXACT)
+def follow_with_friction(velocity, acceleration, step, loop, pulled) -> None:  # pragma: no cover  (compiled)
+    """Write what a loop pulls with, over its friction, while a mass with dry friction follows a reference.
+
+    The mass sticks where the pull is less than friction. The steps are halved until the loop is slow in them.
+
+    Parameters
+    ----------
+    velocity, acceleration
+        Those of the reference, per s and per s2.
+    loop
+        Stiffness and damping of the loop over the mass, 1/s2 and 1/s; friction over the mass, the
+        acceleration that it brakes with; and the share of the reference's acceleration that is fed forward.
+    """
+    stiffness, damping, friction, fed = loop
+    parts = max(1, int(np.ceil(step * np.sqrt(stiffness) / 0.02)))
+    part = step / parts
+    own = velocity[0]
+    lag = np.sign(velocity[0]) * friction / stiffness + (1.0 - fed) * acceleration[0] / stiffness
+    for row in range(len(velocity)):
+        last = max(row - 1, 0)
+        for number in range(parts):
+            share = (number + 1.0) / parts
+            speed = velocity[last] + share * (velocity[row] - velocity[last])
+            pull = fed * (acceleration[last] + share * (acceleration[row] - acceleration[last]))
+            free = own + part * (pull + stiffness * lag + damping * (speed - own))
+            own = np.sign(free) * max(abs(free) - part * friction, 0.0)
+            lag += part * (speed - own)
+        pulled[row] = (stiffness * lag + damping * (velocity[row] - own)) / friction

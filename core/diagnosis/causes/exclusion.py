@@ -7,7 +7,7 @@ what no size could show is the search's `ScoredCandidate.possible`. This is the 
 from dataclasses import dataclass
 
 from ..thresholds.causes import ADMISSIBLE
-from ..thresholds.checks import ALTERNATIVES
+from ..thresholds.checks import ALTERNATIVES, SPRING_RESONANCE
 
 
 @dataclass(frozen=True)
@@ -148,6 +148,23 @@ DOUBTS: tuple[Exclusion, ...] = (
         "friction_presliding",
         f"the level is less than {ADMISSIBLE.level_deviations:g} standard deviations",
         "it may as well be Coulomb friction, which the model has",
+    ),
+    Exclusion(
+        "friction_presliding",
+        "a joint that lags behind the logged positions in a controller's loop explains the torque better",
+        "the positions may be the reference, and dry friction holds a joint where its reference turns round",
+    ),
+    Exclusion(
+        "joint_elasticity",
+        f"the stiffness is more than {SPRING_RESONANCE.times:g} times that of its resonance and of the moved "
+        "inertia, or as many times less",
+        "what resonates is then not the link on its spring: a base that gives or a load that swings",
+    ),
+    Exclusion(
+        "torque_ripple",
+        f"the motion shows less than {ADMISSIBLE.ripple_waves:g} waves, or their number per revolution is "
+        f"within {ADMISSIBLE.significant:g} standard deviations of {ADMISSIBLE.ripple_harmonic:g}",
+        "so little of a wave may be any other torque over the angle, as of a hose or a spring balance",
     ),
     Exclusion(
         "time_delay",

@@ -44,6 +44,13 @@ class TorqueRipple(OwnJointCause):
         """Admit more cycles per revolution than gravity has."""
         return super().admissible(solved) and solved.scalars["harmonic"] >= ADMISSIBLE.ripple_harmonic
 
+    def represented(self, at: Setting, solved: FittedCause) -> bool:
+        """Doubt a wave of which the motion shows little more than one, or as slow as the slowest."""
+        harmonic, doubt = solved.scalars["harmonic"], solved.deviations.get("harmonic", 0.0)
+        turns = float(np.ptp(at.dataset.state.position[:, at.joint - 1])) / (2.0 * np.pi)
+        slow = harmonic - ADMISSIBLE.significant * doubt <= ADMISSIBLE.ripple_harmonic
+        return harmonic * turns >= ADMISSIBLE.ripple_waves and not slow
+
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the wave: the drive torque is larger by amplitude cos(harmonic q + phase)."""
         return wave_quantities(solved, "N m")

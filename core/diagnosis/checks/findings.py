@@ -25,6 +25,7 @@ from .gain import gain
 from .instruments import Instruments
 from .plausible_size import has_known_size
 from .position_noise import noise_test
+from .spring_resonance import contradicts_resonance, resonance_evidence
 
 
 def finding(
@@ -59,12 +60,14 @@ def finding(
     scattered = _between_blocks(fitter, chosen, index, own)
     represented = cause.represented(at, solved) and has_known_size(cause, solved)
     noise = noise_test(fitter, own.without, instruments, index, own.statistic)
+    resonance = resonance_evidence(cause.id, at, solved)
     doubts = (
-        own.margin < 0.0,
+        min(own.margin, own.over_unnamed) < 0.0,
         not represented,
         _scatters(scattered),
         noise is not None and noise.doubts,
         contradicted_by_command(dataset.motions, cause.id, member.site, float(solved.values[0])),
+        contradicts_resonance(resonance, solved),
     )
     sure = confidence(evidence)
     return Finding(
@@ -83,6 +86,7 @@ def finding(
             *_on_holdout(fitter, chosen, index, own),
             *scattered,
             *(() if noise is None else noise.evidence),
+            *resonance,
             *command_evidence(dataset.motions, cause.id, member.site),
         ),
         ambiguous_with=own.ambiguous,

@@ -28,6 +28,8 @@ STEP = 0.5
 FINER = 8
 SWINGS = tuple(float(rate) for rate in np.geomspace(0.7, 4.0, 12))
 """Rates of a swing, Hz."""
+LOOPS = tuple(float(rate) for rate in np.geomspace(1.0, 20.0, 12))
+"""Bandwidths of a controller's loop, Hz."""
 SWITCHES = 16
 """Parts of a log between which friction may switch; refined to the row."""
 _NAMES = tuple(PATTERNS)
@@ -46,7 +48,8 @@ class UnnamedPatternCause(OwnJointCause):
     def grid(self, at: Setting) -> Sequence[Scalars]:
         """List all patterns with their numbers."""
         patterns = _patterns(at.dataset.joints, at.joint, _seconds(at.dataset))
-        return [_scalars(name, numbers) for name, numbers in (*patterns, *_switches(at.dataset))]
+        listed = (*patterns, *_switches(at.dataset), *_loops(at))
+        return [_scalars(name, numbers) for name, numbers in listed]
 
     def finer(self, dataset: Dataset, scalars: Scalars) -> list[Scalars]:
         """List numbers around those of a grid point.
@@ -58,6 +61,10 @@ class UnnamedPatternCause(OwnJointCause):
         if name == "clock":
             step = STEP / _seconds(dataset) / FINER
             return [_scalars(name, (numbers[0] + step * shift,)) for shift in range(-FINER, FINER + 1)]
+        if name == "loop":
+            ratio = LOOPS[1] / LOOPS[0]
+            rates = numbers[0] * ratio ** (np.arange(-FINER, FINER + 1) / FINER)
+            return [_scalars(name, (float(rate), *numbers[1:])) for rate in rates]
         if name == "friction":
             near = np.abs(dataset.time - numbers[0]) <= _between_switches(dataset)
             return [scalars, *(_scalars(name, (instant,)) for instant in dataset.time[near].tolist())]
@@ -79,6 +86,11 @@ class UnnamedPatternCause(OwnJointCause):
     def statement(self, solved: FittedCause) -> str:
         """Say what the residual follows."""
         return f"The residual of joint {solved.site[0]} follows {_pattern_words(*_read(solved.scalars))}"
+
+
+def is_loop(scalars: Scalars) -> bool:
+    """Tell whether a pattern is that of a joint that lags behind the logged positions."""
+    return _read(scalars)[0] == "loop"
 
 
 @cache
@@ -107,6 +119,16 @@ def _switches(dataset: Dataset) -> list[tuple[str, Numbers]]:
     return [("friction", (begin + step * number,)) for number in range(1, SWITCHES)]
 
 
+def _loops(at: Setting) -> list[tuple[str, Numbers]]:
+    """Give the loops in which a joint may lag behind the logged position: of its own friction and inertia."""
+    point, own = at.operating_point, at.joint - 1
+    moved = float(np.mean(point.slopes(at.dataset.state, own)[2][:, own])) + point.rotor(at.joint)
+    braked = point.coulomb(at.joint) / moved if moved > 0.0 else 0.0
+    if braked <= 0.0:
+        return []
+    return [("loop", (rate, braked, fed)) for rate in LOOPS for fed in (0.0, 1.0)]
+
+
 def _between_switches(dataset: Dataset) -> float:
     return float(np.ptp(dataset.time)) / SWITCHES
 
@@ -130,6 +152,7 @@ def _read(scalars: Scalars) -> tuple[str, Numbers]:
 
 
 def _pattern_words(pattern: str, numbers: Numbers) -> str:
+    """Say what a residual follows; what has one number needs it alone."""
     if pattern == "speeds":
         first, second = (int(joint) for joint in numbers)
         return (
@@ -148,10 +171,12 @@ def _pattern_words(pattern: str, numbers: Numbers) -> str:
             f"a wave over joint {int(numbers[0])}'s angle ({numbers[1]:g} per revolution)"
             f"{factor[int(numbers[2])]}"
         )
-    if pattern == "clock":
-        return f"a period of {1.0 / numbers[0]:.3g} s, independent of the motion"
-    if pattern == "friction":
-        return f"its own friction, which switches at {numbers[0]:.3g} s"
     if pattern == "levels":
         return "two levels between which it switches by itself"
-    return f"an oscillation at about {numbers[0]:.2g} Hz, independent of the motion"
+    return {
+        "clock": f"a period of {1.0 / numbers[0]:.3g} s, independent of the motion",
+        "friction": f"its own friction, which switches at {numbers[0]:.3g} s",
+        "swing": f"an oscillation at about {numbers[0]:.2g} Hz, independent of the motion",
+        "loop": "its dry friction as it would be if the joint lagged behind the logged positions, in a loop "
+        f"of about {numbers[0]:.2g} Hz",
+    }[pattern]

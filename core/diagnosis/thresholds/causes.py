@@ -71,6 +71,9 @@ class Admissible:
     whose torque was made late left 2.0 and 2.2; of 12 simulated ones 11 have more than 4."""
     ripple_harmonic: float = 2.0
     """Cycles per revolution of a torque ripple: gravity has one."""
+    ripple_waves: float = 1.5
+    """Waves of a ripple within the joint's range below which a finding is doubtful: three half waves at least
+    say that it comes again. Source: a spring balance, of an independent simulation, passed for 1.1 waves."""
     least_warm_up: float = 3.0
     """Seconds, time constant of a warm-up: no drive of a robot warms up faster."""
     saturation_error: float = 0.03

@@ -14,14 +14,16 @@ import numpy as np
 from scipy.signal import lfilter
 
 from ...arrays import Samples
+from ...numerics.recursions import follow_with_friction
 from ...robot.model import Parameter, RobotModel
 from ...signals.state import MotionState
 from .effect import OneJointTerm, step_of
 
 HARMONICS = 3
 SWING_DAMPING = 0.05
+LOOP_DAMPING = 0.7
 Numbers = tuple[float, ...]
-_COUNTS = {"speeds": 1, "angle": 2, "clock": 2 * HARMONICS, "swing": 2, "levels": 1, "friction": 2}
+_COUNTS = {"speeds": 1, "angle": 2, "clock": 2 * HARMONICS, "swing": 2, "levels": 1, "friction": 2, "loop": 1}
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,6 +112,18 @@ def _friction(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
     return [np.where(after, np.sign(velocity), 0.0), np.where(after, velocity, 0.0)]
 
 
+def _loop(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
+    rate_hz, friction, fed = numbers
+    velocity, acceleration = state.velocity[:, own], state.acceleration[:, own]
+    pulled = np.empty(len(velocity))
+    angular = 2.0 * np.pi * rate_hz
+    loop = (angular**2, 2.0 * LOOP_DAMPING * angular, friction, fed)
+    follow_with_friction(
+        np.ascontiguousarray(velocity), np.ascontiguousarray(acceleration), step_of(state), loop, pulled
+    )
+    return [pulled - np.sign(velocity) - (1.0 - fed) * acceleration / friction]
+
+
 def _time(state: MotionState) -> Samples:
     return np.arange(len(state.position), dtype=float) if state.time is None else state.time
 
@@ -121,4 +135,5 @@ PATTERNS: Mapping[str, Callable[[int, Numbers, MotionState], list[Samples]]] = {
     "swing": _swing,
     "levels": _levels,
     "friction": _friction,
+    "loop": _loop,
 }

@@ -20,6 +20,7 @@ from .direction import Direction
 from .filled import Filled
 from .leaps import Leaps
 from .plausibility import plausibility_defects
+from .reference import Reference
 from .repeats import Repeats, cut
 from .replays import Replays
 from .resolution import Resolution
@@ -73,7 +74,7 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
     replays = Replays()
     finders: list[Finder] = [
         clock, repeats, stuck, filled, unpowered, Saturation(joints), resolution, Rest(samples),
-        bandwidth, Direction(joints), Velocity(joints),
+        bandwidth, Direction(joints), Velocity(joints), Reference(joints),
     ]  # fmt: skip  # a table
     accepted = True
     for stretch in stretches(source):

@@ -479,3 +479,17 @@ def test_efforts_in_whole_numbers_look_like_counts(channel):
     found = [defect for defect in log.defects if defect.kind == "implausible_unit"]
     assert [defect.joint for defect in found] == [1, 2]
     assert "whole numbers" in found[0].statement
+
+
+@pytest.mark.parametrize(("lag", "found"), [(0.0, True), (1e-6, False)], ids=["the same", "a lag"])
+def test_positions_that_equal_their_reference_were_not_measured(lag, found):
+    time = np.arange(0.0, 20.0, 4e-3)
+    position = np.column_stack([np.sin(time), np.cos(1.3 * time), np.full_like(time, 0.2)])
+    torque = np.column_stack([np.cos(time), np.sin(1.3 * time), np.sin(time)])
+    wanted = position + lag * np.array([1.0, 0.0, 0.0])
+    log = log_from_arrays("planted", time, position, torque, position_ref=wanted)
+    kinds = [defect.kind for defect in log.defects]
+    assert ("position_is_reference" in kinds) is found
+    assert "position_is_reference" not in [
+        defect.kind for defect in log_from_arrays("a", time, position, torque).defects
+    ]

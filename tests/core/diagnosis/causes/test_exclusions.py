@@ -1,5 +1,6 @@
 """What robot and motion exclude is never named: sizes that nothing bounds, limits that the motion exceeds."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -17,6 +18,7 @@ from veritorque.core.diagnosis.causes.guide import guide
 from veritorque.core.diagnosis.causes.protocol import FittedCause, Setting
 from veritorque.core.diagnosis.causes.registry import BY_ID, CAUSES
 from veritorque.core.diagnosis.causes.torque_gain import TorqueGain
+from veritorque.core.diagnosis.causes.torque_ripple import TorqueRipple
 from veritorque.core.diagnosis.causes.torque_saturation import TorqueSaturation
 from veritorque.core.diagnosis.dataset.dataset import build_dataset
 from veritorque.core.diagnosis.search.hypothesis import ScoredCandidate
@@ -130,3 +132,20 @@ def test_the_list_of_exclusions_is_of_known_causes_and_stands_in_the_guide():
     assert all(entry.cause in BY_ID for entry in EXCLUSIONS)
     assert all(entry.where in page and entry.law in page for entry in EXCLUSIONS)
     assert all(f"- {law}" in page for law in GENERAL)
+
+
+@pytest.mark.parametrize(
+    ("harmonic", "deviation", "range_rad", "sure"),
+    [(2.5, 0.1, 3.0, False), (6.0, 0.1, 3.0, True), (6.0, 0.1, 1.2, False), (2.2, 0.2, 6.0, False)],
+    ids=["little more than a wave", "three waves", "a small range", "as slow as the slowest"],
+)
+def test_a_ripple_of_which_the_motion_shows_little_more_than_a_wave_is_doubtful(
+    harmonic, deviation, range_rad, sure
+):
+    look = scene(0.4)
+    state = look.dataset.state
+    position = state.position * range_rad / np.ptp(state.position[:, 1])
+    dataset = replace(look.dataset, state=replace(state, position=position))
+    at = Setting(dataset, look.operating_point, (2,), {"harmonic": harmonic, "centre": 0.0})
+    solved = FittedCause((2,), np.ones(2), 1e-6 * np.eye(2), dict(at.scalars), {"harmonic": deviation})
+    assert TorqueRipple().represented(at, solved) is sure
