@@ -35,25 +35,29 @@ def _stretches(dataset: Dataset, residual: JointSeries, joint: int) -> list[tupl
     """Give, per span, the median size of the joint's residual over its RMS elsewhere."""
     rows = np.flatnonzero(dataset.usable[:, joint])
     size = np.abs(residual[rows, joint])
+    squares = np.append(0.0, np.cumsum(size**2)), np.append(np.cumsum(size[::-1] ** 2)[::-1], 0.0)
     return [
         (float(np.median(size[inside]) / max(elsewhere, 1e-300)), joint, begin)
         for log in np.unique(dataset.log[rows])
         for begin, inside, beside in _windows(dataset, rows, int(log))
-        if len(size) - len(beside) >= PREDICTION.least_rows
-        for elsewhere in [float(np.sqrt(np.mean(np.delete(size, beside) ** 2)))]
+        for others in [len(size) - (beside.stop - beside.start)]
+        if others >= PREDICTION.least_rows
+        for elsewhere in [float(np.sqrt((squares[0][beside.start] + squares[1][beside.stop]) / others))]
     ]
 
 
-def _windows(dataset: Dataset, rows: Indices, log: int) -> list[tuple[float, Indices, Indices]]:
-    """Give, per span of a log, its begin, the indices of its rows, and those of its neighbourhood too."""
+def _windows(dataset: Dataset, rows: Indices, log: int) -> list[tuple[float, slice, slice]]:
+    """Give, per span of a log, its begin, its rows, and those of its neighbourhood too; rows rise in time."""
     own = np.flatnonzero(dataset.log[rows] == log)
     time = dataset.time[rows][own]
     begins = np.arange(time.min(), time.max(), 0.5 * UNNAMED.burst_seconds)
     found = []
     for begin in begins:
-        after, before = time - begin, begin + UNNAMED.burst_seconds - time
-        inside = own[(after >= 0.0) & (before >= 0.0)]
-        if len(inside) >= HOLDOUT.least_rows:
-            around = own[(after > -UNNAMED.burst_distance) & (before > -UNNAMED.burst_distance)]
-            found.append((float(begin), inside, around))
+        after, behind = time - begin, time - (begin + UNNAMED.burst_seconds)
+        first, last = np.searchsorted(after, 0.0), np.searchsorted(behind, 0.0, side="right")
+        if last - first >= HOLDOUT.least_rows:
+            low = np.searchsorted(after, -UNNAMED.burst_distance, side="right")
+            high = np.searchsorted(behind, UNNAMED.burst_distance)
+            around = slice(int(own[0] + low), int(own[0] + high))
+            found.append((float(begin), slice(int(own[0] + first), int(own[0] + last)), around))
     return found

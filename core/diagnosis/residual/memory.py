@@ -61,8 +61,9 @@ def covariance_of_sums(noise: ARNoise, weights: Matrix, begins: Indices) -> Squa
     borders = np.append(begins, len(weights)).astype(int)
     for start, stop in pairwise(borders):
         size = next_fast_len(2 * int(stop - start), real=True)
-        transformed = rfft(weights[start:stop], size, axis=0)
+        transformed = rfft(np.ascontiguousarray(weights[start:stop].T), size)
         power = spectrum(noise, size) / size
         power[1 : (size + 1) // 2] *= 2.0  # the negative frequencies
-        total += np.real((transformed.conj().T * power) @ transformed)
+        parts = transformed.view(np.float64)  # real parts and imaginary ones: the sum is real
+        total += (parts * np.repeat(power, 2)) @ parts.T
     return total

@@ -7,6 +7,7 @@ two agree. Source: Oppenheim & Schafer, Discrete-Time Signal Processing, ch. 7.
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
@@ -86,14 +87,17 @@ def _taken(state: MotionState, cutoff: float, order: int, most: int) -> MotionSt
     """Give what the inverse of the filter adds to a motion."""
     rate = 1.0 / step_of(state)
     reach = min(int(np.ceil(PERIODS * rate / cutoff)), len(state.position) - 1)
-    frequency = np.fft.rfftfreq(next_fast_len(len(state.position) + 2 * reach, real=True), 1.0 / rate)
+    transformed, length = _transformed(state, reach)
+    frequency, size = np.fft.rfftfreq(length, 1.0 / rate), 2 * (len(transformed) - 1)
     passed = gain(frequency, cutoff_hz=min(cutoff, HIGHEST * rate), rate_hz=rate, order=order)
     inverse = np.sum((1.0 - passed) ** np.arange(1.0, most + 1.0)[:, None], axis=0)
+    added = irfft(transformed * inverse[:, None], size, axis=0)[reach : reach + len(state.position)]
+    return MotionState(*np.split(added, 3, axis=1))
 
-    def added(series: JointSeries) -> JointSeries:
-        padded = np.pad(series, ((reach, reach), (0, 0)), mode="reflect", reflect_type="odd")
-        size = 2 * (len(frequency) - 1)
-        back = irfft(rfft(padded, size, axis=0) * inverse[:, None], size, axis=0)
-        return np.asarray(back[reach : reach + len(series)])
 
-    return MotionState(*(added(part) for part in _parts(state)))
+@lru_cache(maxsize=8)
+def _transformed(state: MotionState, reach: int) -> tuple[np.ndarray, int]:
+    """Transform a motion that is continued at its ends, and give the length; filters of a cut-off share it."""
+    padded = np.pad(np.hstack(_parts(state)), ((reach, reach), (0, 0)), mode="reflect", reflect_type="odd")
+    length = next_fast_len(len(padded), real=True)
+    return rfft(padded, 2 * (length // 2), axis=0), length
