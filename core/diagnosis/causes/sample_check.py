@@ -7,6 +7,7 @@ Source: Kay, Fundamentals of Statistical Signal Processing I (1993), ch. 7, for 
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import ClassVar, Protocol, runtime_checkable
 
 import numpy as np
@@ -99,12 +100,8 @@ def _corrupted(
 ) -> MotionState:
     rate_hz, recipe = motion.log.rate_hz, motion.recipe
     thin = max(1, round(step_of(state) * rate_hz))
-    count = len(state.position)
-    fine = np.arange((count - 1) * thin + 1) / thin
-    measured = state.position if thin == 1 else CubicSpline(np.arange(count), state.position)(fine)
-    # The measured motion has its error already; the motion to be corrupted must be smoother.
     band = SAMPLE_CHECKS.smooth_over_motion * recipe.motion_band_hz
-    smooth = _filtered(measured, min(band, SAMPLE_CHECKS.smooth_over_rate * rate_hz), rate_hz)
+    smooth = _smooth(state, thin, min(band, SAMPLE_CHECKS.smooth_over_rate * rate_hz), rate_hz)
     corrupted = smooth + corrupt(smooth, differentiate_throughout(smooth, rate_hz), rng)
     error = without_spikes(corrupted, recipe.median_order) - without_spikes(smooth, recipe.median_order)
     error = _filtered(error, recipe.position_cutoff_hz, rate_hz)
@@ -116,6 +113,17 @@ def _corrupted(
         velocity=state.velocity + rate[::thin],
         acceleration=state.acceleration + second[::thin],
     )
+
+
+@lru_cache(maxsize=8)
+def _smooth(state: MotionState, thin: int, band_hz: float, rate_hz: float) -> JointSeries:
+    """Give the motion at the log's rate without its error, for every check to corrupt."""
+    count = len(state.position)
+    fine = np.arange((count - 1) * thin + 1) / thin
+    measured = state.position if thin == 1 else CubicSpline(np.arange(count), state.position)(fine)
+    smooth = _filtered(measured, band_hz, rate_hz)
+    smooth.setflags(write=False)
+    return smooth
 
 
 def _filtered(values: JointSeries, cutoff_hz: float, rate_hz: float) -> JointSeries:

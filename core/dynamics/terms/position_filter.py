@@ -49,7 +49,7 @@ class PositionFilter(AllJointsTerm):
         taken = _taken(state, cutoff_hz(self.around, self.order), self.order, self.most)
         change = np.zeros_like(state.position)
         for joint in range(state.position.shape[1]):
-            shift = MotionState(*(part[:, [joint]] for part in _parts(taken)))
+            shift = MotionState(*(part[:, joint : joint + 1] for part in _parts(taken)))
             change += self.believed.change(state, joint, shift)
             change[:, joint] += self.believed.rotor(joint + 1) * shift.acceleration[:, 0]
             change[:, joint] += self.believed.viscous(joint + 1) * shift.velocity[:, 0]
@@ -97,7 +97,7 @@ def _taken(state: MotionState, cutoff: float, order: int, most: int) -> MotionSt
 
 @lru_cache(maxsize=8)
 def _transformed(state: MotionState, reach: int) -> tuple[np.ndarray, int]:
-    """Transform a motion that is continued at its ends, and give the length; filters of a cut-off share it."""
+    """Transform a motion that is continued at its ends; give the length too. Filters share it."""
     padded = np.pad(np.hstack(_parts(state)), ((reach, reach), (0, 0)), mode="reflect", reflect_type="odd")
     length = next_fast_len(len(padded), real=True)
     return rfft(padded, 2 * (length // 2), axis=0), length
