@@ -257,12 +257,9 @@ def _explain(
     task, problem, options = settled.task, settled.fit.problem, settled.task.options
     last = _scale_progress(tell, 0.8, 0.15)
     conflicts, doubted = settled.conflicts, bool(contradictions(before))
+    rescaled, promising = conflicts.estimates_a_factor, conflicts.promising
     found = with_reservations(
-        found,
-        open_conflict=conflicts.is_open,
-        doubted=doubted,
-        rescaled=conflicts.estimates_a_factor,
-        promising=conflicts.promising,
+        found, open_conflict=conflicts.is_open, doubted=doubted, rescaled=rescaled, promising=promising
     )
     plain = problem if reference is None else replace(problem, prior=reference.prior)
     found, proof = verified(found, options, plain, lambda: tell("verify", 0.78))

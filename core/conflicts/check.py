@@ -60,11 +60,16 @@ def check(
     factor = next((factor for factor in factors if factor is not None), None)
     if factor is None:
         found = find_conflicts(described, trials)
-        gain = 0.0 if found else least_squares_gain(described, trials)
-        return Conflicts(found, factors, promising=gain if gain > DECISION.least_gain else 0.0)
+        return Conflicts(found, factors, promising=_promising(found, described, trials))
     by_velocity = find_conflicts(described.with_clock(1.0 / factor), trials)
     found = _alike(find_conflicts(described, trials), by_velocity) if by_velocity else ()
     return Conflicts(found, factors)
+
+
+def _promising(found: tuple[FoundConflict, ...], described: Setup, trials: Trials) -> float:
+    """Give what the best set-up gains by least squares where no conflict was found, if enough for one."""
+    gain = 0.0 if found else least_squares_gain(described, trials)
+    return gain if gain > DECISION.least_gain else 0.0
 
 
 def _alike(

@@ -78,7 +78,7 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     tell("prepare figures", 0.95)
     most = max((own.statistic for own in comparisons), default=0.0)
     return Diagnosis(
-        verdict="unexplained" if lagging or swings else _verdict(findings, predictable, unnamed, most),
+        verdict="unexplained" if any((lagging, swings)) else _verdict(findings, predictable, unnamed, most),
         findings=tuple(sorted(findings, key=lambda finding: finding.p_value)),
         not_identifiable=_not_identifiable(found),
         predictable=predictable,

@@ -7,7 +7,7 @@ pulls about a sample are those that are exact for pulls up to second order in ti
 import numpy as np
 
 from ..arrays import Samples
-from .recursions import swing_freely
+from .following import swing_freely
 
 MOST_DAMPED = 0.999
 """Share of critical damping from which on more is taken for this: the free motion then no longer swings."""

@@ -8,11 +8,14 @@ Source: Armstrong-Helouvry, Dupont & Canudas de Wit, Automatica 30(7), 1994, for
 """
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from ..causes.friction_presliding import FrictionPresliding
+from ..causes.protocol import Site
 from ..result import Finding, UnnamedPattern
+from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Hypothesis
 from ..search.likelihood_ratio import likelihood_ratio, log_p
 from ..search.state import SearchState
@@ -38,17 +41,32 @@ def lagging_reference(found: SearchState) -> UnnamedPattern | None:
     if not sites:
         return None
     without = fitter.fit(others)
+    steps = _loops_on(sites, fitter, without)
+    if not 2 * len(steps) > fitter.dataset.joints:
+        return None
+    # Both have a size and a scalar per joint: no criterion has to weigh one number against another.
+    lead = likelihood_ratio(without, steps[-1].after) - likelihood_ratio(without, chosen)
+    clearest = max(steps, key=lambda step: likelihood_ratio(step.before, step.after))
+    return _pattern(found, clearest) if lead > SELECTION.undecided else None
+
+
+class _Step(NamedTuple):
+    """Hold the fits before and after one more joint lags."""
+
+    before: Hypothesis
+    after: Hypothesis
+
+
+def _loops_on(sites: Sequence[Site], fitter: HypothesisFitter, without: Hypothesis) -> list[_Step]:
+    """Let one joint after the other lag, where a loop explains something."""
     loops = [candidate for candidate in unnamed_candidates(fitter) if is_loop(candidate.scalars)]
-    now, clearest, lagging = without, (0.0, without, without), 0
+    now, steps = without, list[_Step]()
     for site in sites:
         trial = best_unnamed_pattern(fitter, now, tuple(one for one in loops if one.site == site))
         if trial is not None:
-            clearest = max(clearest, (likelihood_ratio(now, trial), now, trial), key=lambda step: step[0])
-            now, lagging = trial, lagging + 1
-    # Both have a size and a scalar per joint: no criterion has to weigh one number against another.
-    lead = likelihood_ratio(without, now) - likelihood_ratio(without, chosen)
-    many = 2 * lagging > fitter.dataset.joints
-    return _pattern(found, *clearest) if many and lead > SELECTION.undecided else None
+            steps.append(_Step(now, trial))
+            now = trial
+    return steps
 
 
 def beside_reference(findings: Sequence[Finding], lagging: UnnamedPattern | None) -> list[Finding]:
@@ -58,12 +76,13 @@ def beside_reference(findings: Sequence[Finding], lagging: UnnamedPattern | None
     ]
 
 
-def _pattern(found: SearchState, statistic: float, now: Hypothesis, trial: Hypothesis) -> UnnamedPattern:
+def _pattern(found: SearchState, step: _Step) -> UnnamedPattern:
+    now, trial = step
     last, dataset = trial.members[-1], found.fitter.dataset
     solved = trial.in_joint_units(len(trial.members) - 1, dataset.robot)
     return UnnamedPattern(
         joint=last.site[0],
         statement=f"{last.cause.statement(solved)}; check whether the log's positions are the reference",
-        statistic=statistic,
+        statistic=likelihood_ratio(now, trial),
         log10_p=(log_p(now, trial) + float(np.log(dataset.joints))) / float(np.log(10.0)),
     )

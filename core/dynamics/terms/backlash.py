@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import JointSeries, Samples
-from ...numerics.recursions import move_between_stops
+from ...numerics.following import move_between_stops
 from ...robot.model import RobotModel
 from ...signals.state import MotionState
 from ..gear import Gear

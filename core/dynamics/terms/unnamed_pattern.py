@@ -14,7 +14,7 @@ import numpy as np
 from scipy.signal import lfilter
 
 from ...arrays import Samples
-from ...numerics.recursions import follow_with_friction
+from ...numerics.following import follow_with_friction
 from ...robot.model import Parameter, RobotModel
 from ...signals.state import MotionState
 from .effect import OneJointTerm, step_of

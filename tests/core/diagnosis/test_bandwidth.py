@@ -11,6 +11,7 @@ from tests.core.dynamics.terms.motions import swinging
 from tests.core.estimate.worlds import true_parameters
 from veritorque.core.diagnosis.bandwidth import Fitted, beyond_cubics, few_off, limit_bandwidth
 from veritorque.core.diagnosis.dataset.dataset import build_dataset, identification_width
+from veritorque.core.diagnosis.thresholds.checks import CONFIDENCE
 from veritorque.core.diagnosis.thresholds.dataset import BAND
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.log.reader import log_from_arrays
@@ -89,18 +90,20 @@ def test_a_stamp_is_off_beside_others_that_scatter_less():
 
 
 @pytest.mark.slow
-def test_the_band_is_as_narrow_as_noise_of_positions_makes_the_identification_s():
-    state, rng = swinging(3, 20.0), np.random.default_rng(3)
+def test_noise_of_positions_narrows_the_band_below_the_usual_least_as_the_identification_s():
+    state, rng = swinging(3, 40.0), np.random.default_rng(3)
     model = standard_model(skew_arm())
     torque = model.torque(true_parameters(model), state)
     torque += 0.02 * rng.normal(size=torque.shape)
     time = np.arange(len(torque)) / ARM_RATE_HZ
     position = state.position + 1e-2 * np.random.default_rng(4).normal(size=torque.shape)
+    sound = log_from_arrays("sound", time, state.position, torque)
     log = log_from_arrays("arm", time, position, torque)
     answer = diagnose(IdentifyRequest(skew_arm(), (log,), {"bootstrap": {"draws": 0}}))["diagnosis"]
-    narrowed = choose_recipe(log, FilterOptions()).cutoff_hz
-    assert narrowed < ARM_RATE_HZ / BAND.rate
-    assert answer["band_hz"] == pytest.approx(narrowed)
+    recipe = choose_recipe(log, FilterOptions())
+    assert recipe.motion_band_hz == pytest.approx(choose_recipe(sound, FilterOptions()).motion_band_hz)
+    assert recipe.cutoff_hz <= answer["band_hz"] < 0.6 * BAND.narrowest * recipe.motion_band_hz
+    assert all(finding["confidence"] <= CONFIDENCE.doubtful for finding in answer["findings"])
 
 
 @pytest.mark.parametrize("noise", [1e-3, 0.3])
