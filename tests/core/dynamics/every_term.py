@@ -7,10 +7,11 @@ from pathlib import Path
 import numpy as np
 
 from tests.core.diagnosis.scenes import eventful_scene
+from tests.core.estimate.worlds import true_parameters
 from veritorque.core.diagnosis.causes.protocol import Cause, Setting
 from veritorque.core.diagnosis.causes.registry import AGAINST_REFERENCE
 from veritorque.core.diagnosis.checks.unnamed_pattern import UnnamedPatternCause
-from veritorque.core.dynamics.model import STANDARD_TERMS
+from veritorque.core.dynamics.model import STANDARD_TERMS, standard_model
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.dynamics.term import Term
 from veritorque.core.dynamics.terms.unnamed_pattern import Trace
@@ -62,11 +63,12 @@ def cures(robot: RobotModel | None = None) -> tuple[Term, ...]:
 @cache
 def traces() -> tuple[Term, ...]:
     """Give every pattern that has no cause, each with the last numbers that a search would try."""
-    scene, suspect = eventful_scene(), UnnamedPatternCause()
-    site = suspect.sites(scene.dataset)[-1]
+    dataset, suspect = eventful_scene().dataset, UnnamedPatternCause()
+    model = standard_model(dataset.robot)  # with friction, which a joint in a loop has
+    rubbing, site = Prediction(model, true_parameters(model)), suspect.sites(dataset)[-1]
     switching = suspect.switching(np.array([0.5, 1.5, 2.0]))
-    grid = (*suspect.grid(Setting(scene.dataset, scene.operating_point, site)), switching)
-    terms = [suspect.term(Setting(scene.dataset, scene.operating_point, site, one)) for one in grid]
+    grid = (*suspect.grid(Setting(dataset, rubbing, site)), switching)
+    terms = [suspect.term(Setting(dataset, rubbing, site, one)) for one in grid]
     return tuple({term.pattern: term for term in terms if isinstance(term, Trace)}.values())
 
 
