@@ -6,7 +6,7 @@ shows lack of fit. Either must be as significant as a named cause.
 
 from dataclasses import replace
 
-from ..causes.protocol import Setting
+from ..causes.protocol import Setting, Site
 from ..search.entry_test import is_significant, passes_holdout
 from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Candidate, Hypothesis, candidates_of
@@ -24,6 +24,12 @@ def unnamed_candidates(fitter: HypothesisFitter) -> tuple[Candidate, ...]:
         for site in _UNLISTED.sites(fitter.dataset)
         for candidate in candidates_of(_UNLISTED, Setting(fitter.dataset, fitter.operating_point, site))
     )
+
+
+def loop_candidates(fitter: HypothesisFitter, site: Site) -> tuple[Candidate, ...]:
+    """Give the loops in which a joint may lag behind the logged positions, at the operating point."""
+    loops = _UNLISTED.loops(Setting(fitter.dataset, fitter.operating_point, site))
+    return tuple(Candidate(_UNLISTED, site, scalars, float(len(loops))) for scalars in loops)
 
 
 def best_unnamed_pattern(

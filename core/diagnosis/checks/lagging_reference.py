@@ -20,9 +20,8 @@ from ..search.hypothesis import Hypothesis
 from ..search.likelihood_ratio import likelihood_ratio, log_p
 from ..search.state import SearchState
 from ..thresholds.search import SELECTION
-from .lack_of_fit import best_unnamed_pattern, unnamed_candidates
+from .lack_of_fit import best_unnamed_pattern, loop_candidates
 from .reservations import as_doubtful
-from .unnamed_pattern import is_loop
 
 
 def lagging_reference(found: SearchState) -> UnnamedPattern | None:
@@ -59,10 +58,9 @@ class _Step(NamedTuple):
 
 def _loops_on(sites: Sequence[Site], fitter: HypothesisFitter, without: Hypothesis) -> list[_Step]:
     """Let one joint after the other lag, where a loop explains something."""
-    loops = [candidate for candidate in unnamed_candidates(fitter) if is_loop(candidate.scalars)]
     now, steps = without, list[_Step]()
     for site in sites:
-        trial = best_unnamed_pattern(fitter, now, tuple(one for one in loops if one.site == site))
+        trial = best_unnamed_pattern(fitter, now, loop_candidates(fitter, site))
         if trial is not None:
             steps.append(_Step(now, trial))
             now = trial

@@ -48,8 +48,11 @@ class UnnamedPatternCause(OwnJointCause):
     def grid(self, at: Setting) -> Sequence[Scalars]:
         """List all patterns with their numbers."""
         patterns = _patterns(at.dataset.joints, at.joint, _seconds(at.dataset))
-        listed = (*patterns, *_switches(at.dataset), *_loops(at))
-        return [_scalars(name, numbers) for name, numbers in listed]
+        return [_scalars(name, numbers) for name, numbers in (*patterns, *_switches(at.dataset))]
+
+    def loops(self, at: Setting) -> list[Scalars]:
+        """List the loops in which the joint may lag behind the logged positions: what a reference leaves."""
+        return [_scalars(name, numbers) for name, numbers in _loops(at)]
 
     def finer(self, dataset: Dataset, scalars: Scalars) -> list[Scalars]:
         """List numbers around those of a grid point.
@@ -86,11 +89,6 @@ class UnnamedPatternCause(OwnJointCause):
     def statement(self, solved: FittedCause) -> str:
         """Say what the residual follows."""
         return f"The residual of joint {solved.site[0]} follows {_pattern_words(*_read(solved.scalars))}"
-
-
-def is_loop(scalars: Scalars) -> bool:
-    """Tell whether a pattern is that of a joint that lags behind the logged positions."""
-    return _read(scalars)[0] == "loop"
 
 
 @cache

@@ -67,7 +67,8 @@ def traces() -> tuple[Term, ...]:
     model = standard_model(dataset.robot)  # with friction, which a joint in a loop has
     rubbing, site = Prediction(model, true_parameters(model)), suspect.sites(dataset)[-1]
     switching = suspect.switching(np.array([0.5, 1.5, 2.0]))
-    grid = (*suspect.grid(Setting(dataset, rubbing, site)), switching)
+    look = Setting(dataset, rubbing, site)
+    grid = (*suspect.grid(look), *suspect.loops(look), switching)
     terms = [suspect.term(Setting(dataset, rubbing, site, one)) for one in grid]
     return tuple({term.pattern: term for term in terms if isinstance(term, Trace)}.values())
 
