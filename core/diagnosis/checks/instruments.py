@@ -44,7 +44,10 @@ class Instruments:
         return _log_p(self.whole.fit.values[own] - self.values[own], self._changes[:, own])
 
     def change(self, index: int) -> float:
-        """Give the share of a member's size by which instruments find more or less, in deviations of each."""
+        """Give the share of a member's size by which instruments find more or less.
+
+        Coefficients count in units of their scatter between blocks.
+        """
         own = self.whole.columns_of(index)
         found = self.whole.fit.values[own]
         scale = np.sqrt(np.maximum(np.sum(self._changes[:, own] ** 2, axis=0), np.finfo(float).tiny))
