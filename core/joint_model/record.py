@@ -24,7 +24,7 @@ MOST_ROWS: Final = 60_000
 FEWEST_ROWS: Final = 1000
 """Fewer rows leave blocks of fewer than ten, of which no deviation is known. Set by hand."""
 STILL_SHARE: Final = 0.02
-"""Travel of another joint, as a share of this joint's, up to which it stands: a held joint gives way a bit.
+"""Travel of another joint, as a share of this joint's, up to which it stands: a held joint is flexible.
 Joints of the other kind may travel `STILL_ANGLE` or `STILL_WAY`. Set by hand."""
 STILL_ANGLE, STILL_WAY = 0.01, 1e-3
 """Travel in rad and m up to which any other joint stands."""

@@ -93,8 +93,9 @@ class Instruments:
                 seen.update(numbers.tolist())
         return self._solved(sums[sorted(seen)].T).T
 
-    def _solved(self, right: Matrix) -> Matrix:
-        """Solve Z'X b = right; directions that the instruments do not determine stay at zero."""
+    @cached_property
+    def _equations(self) -> tuple[Matrix, Vector]:
+        """Give Z'X over the sizes of its rows and columns, and the sizes of the rows."""
         fit, prior = self.whole.fit, self.fitter.prior
         gram, square = np.zeros((len(fit.values), len(fit.values))), np.zeros(len(fit.values))
         for instruments, part in zip(self._instruments, fit.joints, strict=True):
@@ -103,10 +104,14 @@ class Instruments:
         if prior is not None:
             known = prior.rows.shape[1]
             gram[:known, :known] += prior.rows.T @ prior.rows
-        scale = np.sqrt(np.where(square > 0.0, square, 1.0))
-        scaled = gram / np.outer(scale, fit.scale)
-        solved, *_ = np.linalg.lstsq(scaled, right / scale[:, None], rcond=RANK_TOLERANCE)
-        return np.asarray(solved / fit.scale[:, None])
+        sizes = np.sqrt(np.where(square > 0.0, square, 1.0))
+        return gram / np.outer(sizes, fit.scale), sizes
+
+    def _solved(self, right: Matrix) -> Matrix:
+        """Solve Z'X b = right; directions that the instruments do not determine stay at zero."""
+        scaled, sizes = self._equations
+        solved, *_ = np.linalg.lstsq(scaled, right / sizes[:, None], rcond=RANK_TOLERANCE)
+        return np.asarray(solved / self.whole.fit.scale[:, None])
 
 
 def _log_p(values: Vector, changes: Matrix) -> float:
