@@ -180,6 +180,9 @@ def test_a_measured_length_that_is_described_too_short_is_named_or_what_equals_i
     (found,) = CONFLICTS["link_length"].hypotheses(setup, trials)
     assert found.joints == (2,)
     assert found.setup.robot.links[1].row.d == pytest.approx(0.3, abs=0.04)
+    (first,) = find_conflicts(setup, trials)
+    assert first.hypothesis.conflict == "mounting"  # a planar arm tells the ratio of length and gravity alone
+    assert [one.key for one in first.equivalents] == [("link_length", (2,), None)]
     described = Setup.as_described(pendulum)
     assert not list(CONFLICTS["link_length"].hypotheses(described, trials))
 
