@@ -167,8 +167,8 @@ class BaseParameters(Open):
     rank: Annotated[
         dict[str, float],
         about(
-            "the share of a column below which it counts as dependent (`relative_tolerance`), and the least "
-            "share of one that was kept (`least_share_kept`)"
+            "the share of a column, outside the columns before it, below which it counts as dependent "
+            "(`relative_tolerance`), and the least share of one that was kept (`least_share_kept`)"
         ),
     ]
     base_parameters: list[dict[str, JsonValue]]

@@ -18,9 +18,11 @@ from ..regressor.columns import all_columns, dense
 from ..robot.model import INERTIAL_SYMBOLS, Parameter, RobotModel
 from ..signals.state import MotionState
 
-RANK_TOLERANCE = 1e-9
-"""A column is dependent when less than this share of it lies outside the columns before it. Rounding leaves
-about 1e-13; twists off by a tenth of a milliradian leave about 1e-4."""
+RANK_TOLERANCE = 1e-10
+"""A column is dependent when what lies outside the columns before it is less than this share of the column and
+of the combination of those that stands for it. Where these are hardly independent themselves, the combination
+is large, and so is its rounding (Higham, Accuracy and Stability of Numerical Algorithms, 2002, ch. 20).
+Rounding leaves about 1e-13; twists off by a tenth of a milliradian leave about 1e-4."""
 _NOTHING = 1e-12
 """A column is zero when it is smaller than this share of the largest of its unit: it is rounding."""
 _SEED = 20221
@@ -39,8 +41,8 @@ class BaseModel:
     grouping: Matrix
     """Matrix G with base = G standard: identity on the kept columns, grouping coefficients on the others."""
     least_share: float = 1.0
-    """The least share of a kept column that lies outside the columns before it. What is far below one, though
-    above `RANK_TOLERANCE`, hardly shows in a log."""
+    """The least share of a kept column, and of the combination of those before it that is nearest, that lies
+    outside these. What is far below one, though above `RANK_TOLERANCE`, hardly shows in a log."""
 
     def base_of(self, standard: Parameters) -> BaseParameters:
         """Group standard parameters."""
@@ -174,23 +176,27 @@ def _random_states(model: DynamicModel, parameters: int) -> MotionState:
 def _first_independent(matrix: Matrix, units: list[str]) -> tuple[list[int], Rows, float]:
     """Pick the columns that the ones before them do not span.
 
-    Give their indices, all columns as combinations of them, and the least share of a picked one that is new.
+    Give their indices, all columns as combinations of them, and the least share by which a picked one is new.
     """
     scale = np.linalg.norm(matrix, axis=0)
     used = scale > _NOTHING * _largest_of_unit(scale, units)
     scaled = matrix / np.where(used, scale, 1.0)
     basis = np.zeros((len(matrix), 0))
+    combined = np.zeros((len(scale), len(scale)))  # the basis as combinations of the columns that were kept
     kept: list[int] = []
     least = 1.0
     for column in np.flatnonzero(used):
         rest = scaled[:, column]
         for _ in range(2):
             rest = rest - basis @ (basis.T @ rest)
-        size = float(np.linalg.norm(rest))
-        if size > RANK_TOLERANCE:
+        size, count = float(np.linalg.norm(rest)), len(kept)
+        stands_for_it = combined[:count, :count] @ (basis.T @ scaled[:, column])
+        share = size / float(np.hypot(1.0, np.linalg.norm(stands_for_it)))
+        if share > RANK_TOLERANCE:
             basis = np.column_stack([basis, rest / size])
+            combined[: count + 1, count] = np.append(-stands_for_it, 1.0) / size
             kept.append(int(column))
-            least = min(least, size)
+            least = min(least, share)
     coordinates = np.linalg.solve(basis.T @ scaled[:, kept], basis.T @ scaled)
     relation = coordinates * np.where(used, scale, 0.0) / scale[kept][:, None]
     return kept, _round_relation(relation), least
