@@ -9,6 +9,7 @@ import pytest
 
 from tests.hidden.real import diagnosed, judge_on_held_out_motion, percents
 from tests.measured import FRANKA_ROWS, TX40_TEST, TX40_TRAIN, measured_log, measured_robot
+from tests.truths.change import scaled
 from veritorque.core.extension.result import Extension
 
 UR10E_FIT = ("fourier_30s_12h", 635, 3510)
@@ -39,6 +40,15 @@ def test_a_ur10e_loses_a_third_of_its_error_on_its_heavy_joints_to_friction_that
     found = diagnosed(measured_robot("ur10e_open"), *logs, logs=[3])
     assert {("friction_load_dependent", (2,)), ("friction_load_dependent", (3,))} <= _named(found)
     assert np.all(percents(found.after.validation)[:3] <= (5.6, 2.2, 2.7))
+
+
+def test_a_halved_torque_of_a_wrist_is_named_though_its_friction_absorbs_nearly_all_of_it():
+    halved = scaled(measured_log("ur10e_open", *UR10E_FIT), 5, 0.5)
+    found = diagnosed(measured_robot("ur10e_open"), halved)
+    (gain,) = (one for one in found.diagnosis.findings if one.cause == "torque_gain")
+    assert gain.joints == (5,)
+    assert gain.confidence > 0.8
+    assert abs(gain.quantities[0].value + 0.5) < 2.0 * gain.quantities[0].standard_deviation
 
 
 def test_what_a_ur10e_that_stops_at_points_leaves_on_its_wrist_is_stiction():

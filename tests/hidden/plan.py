@@ -42,6 +42,15 @@ SHORT_KINDS = (
 )
 """What a quick run has beside every cause: its first number, the arm, and how many there are."""
 
+EFFECT_OF = {
+    "gear_ratio": "torque_gain",
+    "unit": "torque_gain",
+    "mounting": "gravity_misalignment",
+    "link_length": "kinematic_error",
+    "zero_quarter_turn": "encoder_offset",
+}
+"""The effect that a corrected set-up is, where it is a large one of a listed kind."""
+
 
 @dataclass(frozen=True)
 class Order:
@@ -121,14 +130,28 @@ def _options(order: Order) -> dict[str, str | float]:
 
 
 def answered(case: Case, options: Mapping[str, object] | None = None) -> Mapping[str, Any]:
-    """Ask for a diagnosis of the case's log; give the `diagnosis` of the result document."""
+    """Ask for a diagnosis of the case's log; give the `diagnosis` of the result document.
+
+    A set-up that was corrected stands among its findings, by the name that an effect of its kind has: whoever
+    says that a torque is off by a ratio has named the gain, and an exchanged channel is a false answer.
+    """
     from veritorque.core.study import IdentifyRequest, diagnose
 
     # Deviations from drawn blocks are the identification's, and nothing here looks at them.
     document = diagnose(IdentifyRequest(case.believed, (case.log,), options or {"bootstrap": {"draws": 0}}))
     found = document["diagnosis"]
+    conflicts = document["conflicts"]
     assert isinstance(found, dict)
-    return found
+    assert isinstance(conflicts, list)
+    return {**found, "findings": [*map(_as_finding, conflicts), *found["findings"]]}
+
+
+def _as_finding(conflict: Mapping[str, Any]) -> Mapping[str, Any]:
+    own, *others = (
+        {**one, "cause": EFFECT_OF.get(one["conflict"], one["conflict"])}
+        for one in (conflict, *conflict["ambiguous_with"])
+    )
+    return {**own, "ambiguous_with": others, "parameters": []}
 
 
 def run(order: Order) -> tuple[Order, Score | None]:

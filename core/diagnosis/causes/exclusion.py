@@ -1,7 +1,7 @@
 """State what the structure of robot, motion and channel excludes, cause by cause, with the law behind it.
 
 Bounds of signs and sizes are each cause's `admissible`, what the motion refutes is its `contradicted`, and
-what no size could show is the search's `ScoredCandidate.possible`. This is the list that a user reads.
+what no size could show is the search's `ScoredCandidate.determined`. This is the list that a user reads.
 """
 
 from dataclasses import dataclass

@@ -129,9 +129,6 @@ class SearchTraits:
     largest: float = np.inf
     """Largest size of its linear parameters that a robot can have. A log that leaves all of them open beyond
     it cannot show the cause."""
-    least_clear: float = 0.0
-    """Share of its squared columns that the model must leave: for causes that a joint's own parameters absorb
-    but for what other joints know."""
     trials: Callable[[Sequence[Scalars], Scalars], float] = grid_size
     """How many trials a point of the grid was picked from: what its p-value is corrected for."""
 

@@ -9,7 +9,7 @@ from ...dynamics.terms.torque_gain import TorqueGain as TorqueGainTerm
 from ...log.model import LogRows
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
-from ..thresholds.causes import ADMISSIBLE, LINEARISATION
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Numbers, SearchTraits, Setting, Site, number_text
 from .repairs import CorrectsLog, with_torque
 from .shared.own_joint import OwnJointCause
@@ -29,8 +29,7 @@ class TorqueGain(OwnJointCause, CorrectsLog):
     units = (("relative_error", "1"),)
     experiment = "motion of all joints that carry the same bodies, then the same with a weighed payload"
     coordinate = "torque"
-    # What other joints know of the load has to be more than the column errs by.
-    traits = SearchTraits(largest=ADMISSIBLE.torque_gain, least_clear=LINEARISATION.usual**2)
+    traits = SearchTraits(largest=ADMISSIBLE.torque_gain)
 
     def sites(self, dataset: Dataset) -> Sequence[Site]:
         """List every joint, or the robot as a whole."""

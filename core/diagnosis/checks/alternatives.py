@@ -216,7 +216,7 @@ def _trials(state: SearchState, without: Hypothesis) -> list[Hypothesis]:
     others = [
         scored
         for scored in fitter.scan(without)
-        if scored.possible and scored.candidate.key not in taken and scored.candidate.cause.id not in closed
+        if scored.determined and scored.candidate.key not in taken and scored.candidate.cause.id not in closed
     ]
     trials = [with_candidate(fitter, without, scored) for scored in others[: SEARCH.swaps]]
     whole = [fitter.fit(trial.members, trial) for trial in trials]

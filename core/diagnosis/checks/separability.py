@@ -115,8 +115,7 @@ def _kinds(fitter: HypothesisFitter) -> list[list[Candidate]]:
 
 
 def _shown(candidate: Candidate, score: Score, fit: Fit, kinds: int) -> Shown:
-    least = max(ENTRY.least_clear, candidate.cause.traits.least_clear)
-    visible = score.clear_share >= least and is_determined(candidate.cause, score)
+    visible = score.clear_share >= ENTRY.least_clear and is_determined(candidate.cause, score)
     smallest = _smallest(candidate, score, fit, kinds) if visible else None
     return Shown(candidate.cause, candidate.site, visible, smallest)
 

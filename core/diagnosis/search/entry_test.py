@@ -69,7 +69,9 @@ def _admissible_scans(
     return [
         scored
         for scored in fitter.scan(now)
-        if scored.possible and scored.candidate.key not in taken and scored.candidate.cause.id not in excluded
+        if scored.determined
+        and scored.candidate.key not in taken
+        and scored.candidate.cause.id not in excluded
     ]
 
 

@@ -73,17 +73,13 @@ class ScoredCandidate:
     values: Vector
     clear_share: float
     determined: bool = True
-    """Whether the rows leave one of its linear parameters less open than the largest size of its cause."""
-
-    @property
-    def possible(self) -> bool:
-        """Tell whether the structure of robot and motion lets the log show it at all."""
-        return self.determined and self.clear_share >= self.candidate.cause.traits.least_clear
+    """Whether the rows leave one of its linear parameters less open than the largest size of its cause.
+    Otherwise the structure of robot and motion does not let the log show it at all."""
 
     @property
     def identifiable(self) -> bool:
         """Tell whether the model's parameters cannot stand for it."""
-        return self.possible and self.clear_share >= ENTRY.least_clear
+        return self.determined and self.clear_share >= ENTRY.least_clear
 
     @cached_property
     def log_p(self) -> float:

@@ -56,7 +56,7 @@ def scans(first: float) -> dict[tuple[str, tuple[int, ...]], ScoredCandidate]:
 def test_the_zero_of_a_vertical_first_joint_cannot_be_shown_by_rounding_errors():
     """It moves no torque at all: what is left of its columns is what 64 bits round."""
     upright = scans(0.0)["encoder_offset", (1,)]
-    assert not upright.possible
+    assert not upright.determined
 
 
 def test_the_zeros_of_joints_that_gravity_turns_can_be_shown():
