@@ -184,6 +184,20 @@ def test_a_measured_length_that_is_described_too_short_is_named_or_what_equals_i
     assert not list(CONFLICTS["link_length"].hypotheses(described, trials))
 
 
+@pytest.mark.parametrize("wrong", [-0.1, 0.06, 0.0])
+def test_a_length_is_named_where_the_description_gives_placements_as_a_urdf_does(arm, wrong):
+    robot, log, sound = arm
+    links = [replace(link, row=None) for link in robot.links]
+    links[2] = replace(links[2], translation=links[2].translation + [wrong, 0.0, 0.0])
+    document = check_setup(IdentifyRequest(replace(robot, links=tuple(links)), (log,), {}))
+    assert [row["conflict"] for row in document["conflicts"]] == ["link_length"] * (wrong != 0.0)
+    for row in document["conflicts"]:
+        assert row["joints"] == [3]
+        described = row["correction"]["robot"]["joints"][2]["translation"]
+        np.testing.assert_allclose(described, robot.links[2].translation, atol=0.01)
+    assert mean_percent(document) < 1.05 * sound
+
+
 @pytest.mark.parametrize(("degrees", "blocks"), [((9, -1), 40), ((0, 8), 20), ((5, 9), 40), ((-3, 5), 40)])
 def test_nothing_is_named_in_the_place_of_a_slight_tilt_of_a_measured_arm(degrees, blocks):
     """Below the least angle a tilt is a cause. Its opposite may fit better, or the first torque in kN m."""
