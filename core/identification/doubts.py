@@ -42,8 +42,8 @@ LEAST_SQUARES = ("sdp", "wls", "irls", "ols")
 CERTAIN = 3.0
 """A value this many standard deviations from zero has a significant sign."""
 FAR_FROM_DESCRIBED = 10.0
-"""Factor between the torques of the identified and of the described bodies that is another unit's, a gear's or
-a placeholder's. Described masses are seldom wrong by more than two or three. Set by hand."""
+"""Factor between the torques of the identified and of the described bodies that is another unit's, a gear's
+or a placeholder's. Described masses are seldom wrong by more than two or three. Set by hand."""
 
 
 def doubts(found: Identification) -> tuple[str, ...]:
@@ -128,14 +128,15 @@ def _scale(found: Identification) -> list[str]:
     if factor is None or 1.0 / FAR_FROM_DESCRIBED < factor < FAR_FROM_DESCRIBED:
         return []
     sentence = (
-        f"The identified bodies need {factor:.3g} times the torque of the described ones: it may be in another "
-        "unit, in per cent or measured at the motor's side of a gear; or the described masses are placeholders"
+        f"The identified bodies need {factor:.3g} times the torque of the described ones: the torque may be "
+        "in another unit, in per cent or measured at the motor's side of a gear; or the described masses are "
+        "placeholders"
     )
     return [sentence]
 
 
 def _over_described(found: Identification) -> float | None:
-    """Give the torque of the identified bodies over that of the described ones; None where none are described.
+    """Give the torque of the identified bodies over that of the described ones; None without these.
 
     The factor is that of least squares. Newtons are not added to newton metres.
     """
@@ -143,15 +144,16 @@ def _over_described(found: Identification) -> float | None:
     if model.robot.prior is None:
         return None
     described, identified = np.zeros((2, len(model.parameters)))
-    for body, columns in zip(model.robot.prior, link_columns(model), strict=True):
-        described[list(columns)] = body
-        identified[list(columns)] = found.estimate.standard[list(columns)]
+    for body, numbers in zip(model.robot.prior, link_columns(model), strict=True):
+        described[list(numbers)] = body
+        identified[list(numbers)] = found.estimate.standard[list(numbers)]
     products = np.zeros((2, 2))
     sliding = prismatic_joints(model.robot).astype(int)
     parts = zip(found.observation.joint_factors(), found.observation.columns_of, sliding, strict=True)
     for factor, columns, kind in parts:
         own, other = (
-            factor.columns(REGRESSOR) @ found.base.base_of(bodies)[columns] for bodies in (described, identified)
+            factor.columns(REGRESSOR) @ found.base.base_of(bodies)[columns]
+            for bodies in (described, identified)
         )
         products[kind] += own @ other, own @ own
     needed = products[products[:, 1] > 0.0]

@@ -169,8 +169,8 @@ CHANNELS: Final[dict[str, Channel]] = {
         ),
         Channel(
             "torque", "tau", TORQUES, "torque (prismatic: force) of the motor at the joint", "effort",
-            ("tau", "torque", "torques", "trq", "trqs", "effort", "efforts", "eff", "moment", "moments", "mom",
-             "tq", "force", "forces"),
+            ("tau", "torque", "torques", "trq", "trqs", "effort", "efforts", "eff", "moment", "moments",
+             "mom", "tq", "force", "forces"),
         ),
         Channel(
             "current", "current", CURRENTS, "current of the motor", "effort",

@@ -1,4 +1,4 @@
-"""Test whether a length of the description is wrong by more than a small correction, by its profile likelihood.
+"""Test whether a length of the description is off by more than a small correction, by profile likelihood.
 
 A table has two lengths per row. Where the placement itself was given, as by a URDF, there are three.
 """

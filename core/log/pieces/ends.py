@@ -74,7 +74,7 @@ def bad_tail(rows: LogRows) -> BadEnd | None:
 
 
 def is_mostly_held(rows: LogRows) -> bool:
-    """Tell whether more than half of some rows say the same as the first of them: their end may be farther on.
+    """Tell whether more than half of some rows say the same as the first: their end may be farther on.
 
     Examples
     --------

@@ -188,7 +188,7 @@ def test_a_measured_length_that_is_described_too_short_is_named_or_what_equals_i
 def test_a_length_is_named_where_the_description_gives_placements_as_a_urdf_does(arm, wrong):
     robot, log, sound = arm
     links = [replace(link, row=None) for link in robot.links]
-    links[2] = replace(links[2], translation=links[2].translation + [wrong, 0.0, 0.0])
+    links[2] = replace(links[2], translation=links[2].translation + np.array([wrong, 0.0, 0.0]))
     document = check_setup(IdentifyRequest(replace(robot, links=tuple(links)), (log,), {}))
     assert [row["conflict"] for row in document["conflicts"]] == ["link_length"] * (wrong != 0.0)
     for row in document["conflicts"]:

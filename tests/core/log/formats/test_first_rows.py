@@ -12,8 +12,11 @@ from veritorque.core.log.reader import read_log
 @pytest.fixture
 def renamed(tmp_path):
     columns = swing(joints=7)
-    names = {"time": "t"} | {f"q_{j}": f"ang{j}" for j in range(1, 8)} | {f"tau_{j}": f"trq{j}" for j in range(1, 8)}
-    return write_csv(tmp_path / "renamed.csv", {names[name]: values for name, values in columns.items()}, " ")
+    called = {
+        name.replace("q_", "ang").replace("tau_", "trq").replace("time", "t"): values
+        for name, values in columns.items()
+    }
+    return write_csv(tmp_path / "renamed.csv", called, " ")
 
 
 @pytest.mark.parametrize("read", [read_log, lambda path: check_log(path).suggestion])
