@@ -19,6 +19,7 @@ from .blocks import unnamed_channels
 from .families import (
     along_arm,
     arm_of,
+    channel_by_unit,
     channel_of,
     name_words,
     named_families,
@@ -101,7 +102,8 @@ def explained(error: LogError, table: Table) -> LogError:
 def _half(table: Table) -> tuple[str, str] | None:
     """Tell what a file holds and what it lacks; None where its names say neither or both."""
     families = numbered_families(table.names) | single_families(table.names)
-    named = {channel for stem in families if (channel := channel_of(stem, ())) is not None}
+    told = (channel_of(stem, ()) or channel_by_unit(stem) for stem in families)
+    named = {channel for channel in told if channel is not None}
     recorded = (fill_in({PROFILE: name}, table.names) for name in PROFILES if _is_ordered(name, table.names))
     named |= {channel for filled in recorded if isinstance(filled, dict) for channel in filled}
     efforts = {*EFFORTS, "torque_ref"} & named
@@ -231,7 +233,8 @@ def _channels(families: Mapping[str, list[str]]) -> dict[str, list[str]]:
             continue
         if CHANNELS[channel].need != "reference" or len(columns) == len(found.get("position", ())):
             found[channel] = columns
-    return found
+    by_unit = ((channel_by_unit(stem), stem) for stem in families if channel_of(stem, ()) is None)
+    return {channel: families[stem] for channel, stem in by_unit if channel is not None} | found
 
 
 def _is_whole(channels: Mapping[str, list[str]]) -> bool:

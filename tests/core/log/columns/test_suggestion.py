@@ -28,6 +28,7 @@ def recorded(time, *names, time_scale=1.0, scales=()):
 RECORDERS = {
     "names of joints, pos and eff": recorded("t", "shoulder_pos", "elbow_pos", "shoulder_eff", "elbow_eff"),
     "names of joints, before": recorded("time", "pos_hip", "pos_knee", "torque_hip", "torque_knee"),
+    "units alone": recorded("t(s)", "jnt1(rad)", "jnt2(rad)", "mot1(Nm)", "mot2(Nm)"),
     "plural": recorded("stamp", "positions_1", "positions_2", "efforts_1", "efforts_2"),
     "JointN_Pos": recorded("Time", "Joint1_Pos", "Joint2_Pos", "Joint1_Force", "Joint2_Force"),
     "Axis N": recorded("timestamp", "Axis 1 Position", "Axis 2 Position", "Axis 1 Torque", "Axis 2 Torque"),
