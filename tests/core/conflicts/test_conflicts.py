@@ -346,6 +346,19 @@ def test_a_log_that_its_model_explains_is_not_examined(arm, monkeypatch):
     assert identify(IdentifyRequest(robot, (log,), PLAIN))["conflicts"] == []
 
 
+@pytest.mark.parametrize("rows_late", [60, 137])
+def test_no_correction_is_more_likely_than_not_while_the_model_fails_on_a_joint(arm, rows_late):
+    """Torques that are late by a second are those of no corrected robot."""
+    robot, log, _ = arm
+    rows = whole_rows(log)
+    late = log_from_arrays(
+        "late", rows.time[:-rows_late], rows.position[:-rows_late], rows.torque[rows_late:]
+    )
+    document = check_setup(IdentifyRequest(robot, (late,), {}))
+    assert max(document["conflicts"][-1]["joint_errors_after_percent"]) > 50.0
+    assert max(row["confidence"] for row in document["conflicts"]) <= 0.5
+
+
 @pytest.mark.parametrize("name", sorted(CONFLICTS))
 def test_every_hypothesis_is_another_set_up_and_says_what_to_do(arm, name):
     robot, log, _ = arm
