@@ -47,8 +47,8 @@ class Decision:
     equal: float = 1.0
     """The same below which two predict alike, and the more usual one is applied. Set by hand."""
     failed: float = 0.5
-    """Share of a joint's RMS torque. Where the last correction leaves more, none is more likely than not. Set by
-    hand, as for the findings of a diagnosis."""
+    """Share of a joint's RMS torque. Where the last correction leaves more, none is more likely than not. Set
+    by hand, as for the findings of a diagnosis."""
     most_where_failed: float = 0.5
     """Confidence of a correction there, at most."""
     least_gain: float = 0.15

@@ -101,8 +101,8 @@ def _lost(rows: LogRows) -> SampleMask:
 def _lost_runs(values: Samples) -> tuple[Indices, Indices]:
     """Give the first samples of such runs, and the samples behind them.
 
-    The other steps show how large a step usually is. Where every step leads into such a run or out of it, as of
-    a channel that is filled with zeros between its samples, those between the other values do.
+    The other steps show how large a step usually is. Where every step leads into such a run or out of it, as
+    of a channel that is filled with zeros between its samples, those between the other values do.
     """
     edges = np.flatnonzero(values[1:] != values[:-1]) + 1
     steps = np.abs(values[edges] - values[edges - 1])
