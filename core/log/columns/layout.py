@@ -183,12 +183,16 @@ def _is_other(bound: Binding, channels: Sequence[Binding], mapping: LogMapping) 
     They are mapped to another channel, or are not one per joint.
     """
     joints = len(channels[0].columns)
-    whole = {own.name for own in channels if own is not bound and len(own.columns) == joints}
-    spare = CHANNELS[bound.name].need in UNNEEDED or (bound.name in EFFORTS and whole & set(EFFORTS))
-    if not spare or bound.name in mapping.channels:
+    if bound.name in mapping.channels or not _is_replaced(bound, channels, joints):
         return False
     mapped = {column for request in mapping.channels.values() if request for column in request.columns}
     return bool(mapped & set(bound.columns)) or len(bound.columns) != joints
+
+
+def _is_replaced(bound: Binding, channels: Sequence[Binding], joints: int) -> bool:
+    """Tell whether no computation needs a channel, or another effort has one column per joint."""
+    others = {own.name for own in channels if own is not bound and len(own.columns) == joints}
+    return CHANNELS[bound.name].need in UNNEEDED or (bound.name in EFFORTS and bool(others & set(EFFORTS)))
 
 
 def _default_columns(channel: Channel, table: Table, *, spare: bool) -> tuple[str, ...]:

@@ -103,10 +103,15 @@ def _long(table: Table) -> _Long | None:
         return None
     stamps = np.hstack(list(table.batches([stamp])))[0]
     named = np.array(words)
-    together = np.mean(np.diff(stamps) == 0.0) >= FEWEST_REPEATS * (1.0 - 1.0 / len(keys))
-    if not together and not _take_turns(named, len(keys), values):
+    if not _belongs_to_joints(stamps, named, len(keys), values):
         return None  # a row per instant whose key says something else
     return _Long(key, keys, [np.flatnonzero(named == word) for word in keys], stamp, values)
+
+
+def _belongs_to_joints(stamps: np.ndarray, named: np.ndarray, keys: int, values: tuple[str, ...]) -> bool:
+    """Tell whether the rows of an instant are one of each joint's, or each joint has its turn."""
+    together = np.mean(np.diff(stamps) == 0.0) >= FEWEST_REPEATS * (1.0 - 1.0 / keys)
+    return bool(together) or _take_turns(named, keys, values)
 
 
 def _take_turns(named: np.ndarray, keys: int, values: tuple[str, ...]) -> bool:
