@@ -48,9 +48,9 @@ class JointFit(Open):
     """Torque prediction error of a joint."""
 
     joint: int
-    samples: int = 0
-    rms_torque: float
-    rms_residual: float
+    samples: Annotated[int, about("0 for a joint that never moves; its numbers are null")] = 0
+    rms_torque: float | None
+    rms_residual: float | None
     nrmse_of_range_percent: float | None
     nrmse_of_rms_percent: float | None
     quality: Annotated[

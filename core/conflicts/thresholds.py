@@ -46,6 +46,11 @@ class Decision:
     Anderson, Model Selection (2002), ch. 2."""
     equal: float = 1.0
     """The same below which two predict alike, and the more usual one is applied. Set by hand."""
+    failed: float = 0.5
+    """Share of a joint's RMS torque. Where the last correction leaves more, none is more likely than not.
+    Set by hand, as for the findings of a diagnosis."""
+    most_where_failed: float = 0.5
+    """Confidence of a correction there, at most. Set by hand."""
     least_gain: float = 0.15
     """Natural logarithm by which the joints' mean error has to fall: a seventh. Set by hand: on the four
     measured robots as described, no other set-up reaches 0.11."""

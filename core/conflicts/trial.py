@@ -100,7 +100,8 @@ class Trials:
         reduced, base, rows = equations.reduced, equations.regressor.base, equations.regressor.fitted
         columns_of = equations.regressor.plan.columns_of
         system = condensed(rows.columns, columns_of, rows.torque(equations.channels), reduced.noise)
-        prior = default_prior(base.model, np.sqrt(reduced.torques / reduced.rows))
+        of_torque = replace(base.model, robot=replace(base.model.robot, prior=None))
+        prior = default_prior(of_torque, np.sqrt(reduced.torques / reduced.rows))
         try:
             solution = solve_with_clarabel(
                 Programme(base, system, prior, Bounds(plausible=False)), coarse=True

@@ -85,9 +85,11 @@ def model_fields(found: Identification) -> dict[str, object]:
 
 
 def score_rows(scores: Sequence[JointScore]) -> list[dict[str, object]]:
-    """Tabulate the errors per joint, each with a word for it where there are rows to judge by."""
+    """Tabulate the errors per joint, each with a word for it; without rows to judge by nothing is known."""
     return [
-        {**vars(score), "quality": quality(score.nrmse_of_rms_percent) if score.samples else None}
+        {**vars(score), "quality": quality(score.nrmse_of_rms_percent)}
+        if score.samples
+        else dict.fromkeys((*vars(score), "quality")) | {"joint": score.joint, "samples": 0}
         for score in scores
     ]
 

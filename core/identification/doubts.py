@@ -9,9 +9,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..arrays import JointVector, Mask
+from ..estimate.constraints import link_columns
 from ..estimate.plausibility import DENSEST
 from ..log.model import Defect
+from ..regressor.factor import REGRESSOR
 from ..robot.extent import Extent
+from ..robot.joint_units import prismatic_joints
 from ..validation.quality import quality
 from .choice import BIASED
 from .result import Identification
@@ -38,12 +41,16 @@ LEAST_SQUARES = ("sdp", "wls", "irls", "ols")
 """Estimators that noise of columns biases."""
 CERTAIN = 3.0
 """A value this many standard deviations from zero has a significant sign."""
+FAR_FROM_DESCRIBED = 10.0
+"""Factor between the torques of the identified and of the described bodies that is another unit's, a gear's
+or a placeholder's. Described masses are seldom wrong by more than two or three. Set by hand."""
 
 
 def doubts(found: Identification) -> tuple[str, ...]:
     """List the warnings."""
     return (
         *_logs(found),
+        *_scale(found),
         *contradictions(found),
         *_not_converged(found),
         *_worse_than_least_squares(found),
@@ -113,6 +120,45 @@ def _logs(found: Identification) -> list[str]:
             if alike:
                 sentences.append(f"Log {log.name}: {_summarised(alike)}")
     return sentences
+
+
+def _scale(found: Identification) -> list[str]:
+    """Doubt the unit of all torques together: a common factor makes other bodies, and fits as well."""
+    factor = _over_described(found)
+    if factor is None or 1.0 / FAR_FROM_DESCRIBED < factor < FAR_FROM_DESCRIBED:
+        return []
+    sentence = (
+        f"The identified bodies need {factor:.3g} times the torque of the described ones: the torque may be "
+        "in another unit, in per cent or measured at the motor's side of a gear; or the described masses are "
+        "placeholders"
+    )
+    return [sentence]
+
+
+def _over_described(found: Identification) -> float | None:
+    """Give the torque of the identified bodies over that of the described ones; None without these.
+
+    The factor is that of least squares. Newtons are not added to newton metres.
+    """
+    model = found.base.model
+    if model.robot.prior is None:
+        return None
+    described, identified = np.zeros((2, len(model.parameters)))
+    for body, numbers in zip(model.robot.prior, link_columns(model), strict=True):
+        described[list(numbers)] = body
+        identified[list(numbers)] = found.estimate.standard[list(numbers)]
+    products = np.zeros((2, 2))
+    sliding = prismatic_joints(model.robot).astype(int)
+    parts = zip(found.observation.joint_factors(), found.observation.columns_of, sliding, strict=True)
+    for factor, columns, kind in parts:
+        own, other = (
+            factor.columns(REGRESSOR) @ found.base.base_of(bodies)[columns]
+            for bodies in (described, identified)
+        )
+        products[kind] += own @ other, own @ own
+    needed = products[products[:, 1] > 0.0]
+    factors = needed[:, 0] / needed[:, 1]
+    return float(np.mean(factors)) if len(factors) and np.mean(factors) > 0.0 else None
 
 
 def _summarised(alike: Sequence[Defect]) -> str:

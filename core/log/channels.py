@@ -164,11 +164,13 @@ CHANNELS: Final[dict[str, Channel]] = {
         ),
         Channel(
             "velocity", "qd", VELOCITIES, "velocity of the joint, as the recorder gives it", "optional",
-            ("qd", "dq", "vel", "velocity", "velocities", "speed", "omega", "qdot"),
+            ("qd", "dq", "vel", "velocity", "velocities", "speed", "speeds", "omega",
+             "qdot"),
         ),
         Channel(
             "torque", "tau", TORQUES, "torque (prismatic: force) of the motor at the joint", "effort",
-            ("tau", "torque", "torques", "trq", "trqs", "effort", "eff", "moment", "mom", "tq", "force"),
+            ("tau", "torque", "torques", "trq", "trqs", "effort", "efforts", "eff", "moment", "moments",
+             "mom", "tq", "force", "forces"),
         ),
         Channel(
             "current", "current", CURRENTS, "current of the motor", "effort",
@@ -176,7 +178,7 @@ CHANNELS: Final[dict[str, Channel]] = {
         ),
         Channel(
             "temperature", "temperature", TEMPERATURES, "temperature of the joint", "optional",
-            ("temperature", "temp"),
+            ("temperature", "temperatures", "temp", "temps"),
         ),
         Channel(
             "position_ref", "position_ref", POSITIONS, "position asked for by the controller", "reference",
@@ -215,6 +217,8 @@ REFERENCE_WORDS: Final = frozenset(
         "commanded",
         "target",
         "setpoint",
+        "setpoints",
+        "targets",
         "goal",
         "planned",
     )

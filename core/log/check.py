@@ -15,6 +15,7 @@ from .channels import TIME
 from .columns.binding import Binding
 from .columns.layout import Layout
 from .columns.suggestion import explained, suggest_mappings, suggest_units
+from .formats.first_rows import first_rows
 from .model import JointLog
 from .reader import bind_columns, open_table, read_table
 
@@ -62,10 +63,11 @@ def check_log(path: Path, *, mapping: Mapping[str, object] | None = None) -> Log
         If the file is of no format that holds a log, or damaged.
     """
     form, table = open_table(path)
+    seen = first_rows(table)
     try:
-        layout = bind_columns(table, mapping)
+        layout = bind_columns(seen, mapping)
     except LogError as error:
-        arms = [] if mapping else suggest_mappings(table)
+        arms = [] if mapping else suggest_mappings(seen)
         suggestion = next(iter(arms), None)
         refusal = error if mapping or arms else explained(error, table)
         return LogCheck(

@@ -23,6 +23,7 @@ from .defects.examine import examine
 from .formats.combine import combine_stamps, split_lists
 from .formats.content import BAG, DELIMITED, MATLAB5, MATLAB7, MCAP, NPZ, PARQUET, SQLITE_BAG, Form, recognise
 from .formats.delimited import open_delimited
+from .formats.first_rows import first_rows
 from .formats.long import widen
 from .formats.matlab5 import open_matlab5
 from .formats.matlab7 import open_matlab7
@@ -86,10 +87,11 @@ def read_log(
     """
     path = Path(path)
     table = open_table(path, media_type)[1]
+    seen = first_rows(table)
     try:
-        layout = bind_columns(table, mapping)
+        layout = bind_columns(seen, mapping)
     except LogError as error:
-        raise error if mapping else _with_suggestion(error, table, prismatic) from error
+        raise error if mapping else _with_suggestion(error, seen, prismatic) from error
     return read_table(table, layout, name=name or path.stem, sha256=sha256 or _hash(path))
 
 

@@ -22,6 +22,8 @@ adds up over all frequencies. Estimates of a spectrum scatter by less than this.
 NOISY_SHARE = 0.4
 """Noise alone has half of its velocity's power above this share of the survey's low-pass."""
 _SURVEY_SECONDS = 60.0
+_SURVEY_ROWS = 1000
+"""At least so many rows: stamps in another unit make a second of few."""
 _SURVEYS = 8
 
 
@@ -46,7 +48,7 @@ class Survey:
 def survey_of(log: JointLog, median_order: int) -> Survey:
     """Read band and speed of every joint from up to eight windows of the longest segment."""
     start, stop = max(log.segments, key=lambda segment: segment[1] - segment[0])
-    length = min(stop - start, int(_SURVEY_SECONDS * log.rate_hz))
+    length = min(stop - start, max(int(_SURVEY_SECONDS * log.rate_hz), _SURVEY_ROWS))
     count = min(_SURVEYS, max(1, (stop - start) // length))
     firsts = np.linspace(start, stop - length, count).astype(int)
     read = [log.source.rows(int(first), int(first) + length) for first in firsts]

@@ -55,7 +55,7 @@ def matters(spoilt: Spoilt, sound_percent: float) -> bool:
 
 def mean_percent(document: Mapping[str, Any]) -> float:
     """Give the geometric mean of the joints' errors on held-out data, per cent of their RMS torque."""
-    errors = [max(row["nrmse_of_rms_percent"], 1e-3) for row in document["validation"]]
+    errors = [max(row["nrmse_of_rms_percent"] or 0.0, 1e-3) for row in document["validation"]]
     return float(np.exp(np.mean(np.log(errors))))
 
 

@@ -15,15 +15,15 @@ SPEED = 0.1
 """Of a joint that keeps its speed, rad/s."""
 
 
-def log_with_constant(joints: list[int]) -> JointLog:
+def log_with_constant(joints: list[int], speed: float = SPEED) -> JointLog:
     """Log a planar arm some of whose joints (from 0) keep their speed."""
     moving = swing(len(MODEL.robot.joints), seed=1)
     time = np.arange(len(moving.position)) / 100.0
     position, velocity, acceleration = (
         one.copy() for one in (moving.position, moving.velocity, moving.acceleration)
     )
-    position[:, joints] = SPEED * (time - 5.0)[:, None]
-    velocity[:, joints], acceleration[:, joints] = SPEED, 0.0
+    position[:, joints] = speed * (time - 5.0)[:, None]
+    velocity[:, joints], acceleration[:, joints] = speed, 0.0
     state = MotionState(position, velocity, acceleration)
     noise = 0.02 * np.random.default_rng(1).normal(size=position.shape)
     return log_of(MODEL, true_parameters(MODEL), state, noise)
@@ -48,3 +48,12 @@ def test_beside_a_joint_that_keeps_its_speed_the_others_inertia_is_identified():
     expected = sum(weight * truth[name] for name, weight in found["relation"].items())
     assert abs(found["value"] - expected) < 4.0 * found["standard_deviation"] < 0.4 * expected
     assert min(document["feasibility"]["pseudo_inertia_min_eigenvalue"]) > 0.0
+
+
+def test_the_error_of_a_joint_that_stands_is_not_known_and_not_zero():
+    document = diagnose(IdentifyRequest(MODEL.robot, (log_with_constant([0], speed=0.0),)))
+    for side in (document, document["diagnosis"]["before"], document["diagnosis"]["after"]):
+        for row in [*(side.get("fit") or []), *(side.get("validation") or [])]:
+            known = {name for name, value in row.items() if value is not None}
+            assert ("rms_residual" in known) == (row["joint"] == 2)
+            assert known >= {"joint", "samples"}

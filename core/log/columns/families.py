@@ -9,6 +9,7 @@ from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from itertools import chain
 
 from ..channels import JOINT_CHANNELS, REFERENCE_WORDS
+from .named_units import unit_in_name
 
 _CHANNEL_WORDS = frozenset(word for channel in JOINT_CHANNELS for word in channel.words) - {"joint", "joints"}
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
@@ -188,6 +189,21 @@ def arm_of(stem: str) -> frozenset[str]:
     return frozenset(
         name_words(stem) - _CHANNEL_WORDS - REFERENCE_WORDS - {"joint", "joints", "actual", "measured"}
     )
+
+
+def channel_by_unit(stem: str) -> str | None:
+    """Find the channel that alone is measured in the unit which stands in brackets behind a name.
+
+    Examples
+    --------
+    >>> channel_by_unit("jnt (rad)"), channel_by_unit("load [%]"), channel_by_unit("jnt_rad")
+    ('position', None, None)
+    """
+    if not _BRACKETS.search(stem):
+        return None
+    measured = (channel.name for channel in JOINT_CHANNELS if channel.need != "reference")
+    found = [name for name in measured if unit_in_name(name, stem) is not None]
+    return found[0] if len(found) == 1 else None
 
 
 def channel_of(stem: str, known: Collection[str]) -> str | None:

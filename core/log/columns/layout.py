@@ -120,7 +120,7 @@ def bind(table: Table, mapping: LogMapping) -> Layout:
     bound = [_bind_channel(channel, table, mapping) for channel in JOINT_CHANNELS]
     channels = tuple(filter(None, bound))
     _require(table, channels)
-    channels = tuple(channel for channel in channels if not _is_other(channel, channels[0], mapping))
+    channels = tuple(channel for channel in channels if not _is_other(channel, channels, mapping))
     _one_column_per_joint(channels)
     used = _used_columns((*channels, time) if time else channels)
     ignored = tuple(name for name in table.names if name not in used)
@@ -156,7 +156,7 @@ def _bind_channel(channel: Channel, table: Table, mapping: LogMapping) -> Bindin
     if channel.name in mapping.channels:
         request = mapping.channels[channel.name]
         return None if request is None else _bind_request(channel.name, request, table)
-    columns = _default_columns(channel, table)
+    columns = _default_columns(channel, table, spare=_is_spare(channel, table.names, mapping))
     return _bind_default(channel.name, columns, table) if columns else None
 
 
@@ -170,19 +170,33 @@ def _bind_default(channel: str, columns: tuple[str, ...], table: Table) -> Bindi
     return _bind_request(channel, request, table)
 
 
-def _is_other(bound: Binding, position: Binding, mapping: LogMapping) -> bool:
-    """Tell whether the default names of a channel that no computation needs mean something else.
+def _is_spare(channel: Channel, names: Collection[str], mapping: LogMapping) -> bool:
+    """Tell whether a log may lack a channel: no computation needs it, or there is another effort."""
+    others = (CHANNELS[effort] for effort in EFFORTS if channel.name in EFFORTS and effort != channel.name)
+    there = (mapping.channels.get(other.name, f"{other.prefix}_1" in names) for other in others)
+    return channel.need in UNNEEDED or any(there)
+
+
+def _is_other(bound: Binding, channels: Sequence[Binding], mapping: LogMapping) -> bool:
+    """Tell whether the default names of a channel that the log may lack mean something else.
 
     They are mapped to another channel, or are not one per joint.
     """
-    if CHANNELS[bound.name].need not in UNNEEDED or bound.name in mapping.channels:
+    joints = len(channels[0].columns)
+    if bound.name in mapping.channels or not _is_replaced(bound, channels, joints):
         return False
     mapped = {column for request in mapping.channels.values() if request for column in request.columns}
-    return bool(mapped & set(bound.columns)) or len(bound.columns) != len(position.columns)
+    return bool(mapped & set(bound.columns)) or len(bound.columns) != joints
 
 
-def _default_columns(channel: Channel, table: Table) -> tuple[str, ...]:
-    """Find `q_1` to `q_n`, or the single `q` of a one-joint log."""
+def _is_replaced(bound: Binding, channels: Sequence[Binding], joints: int) -> bool:
+    """Tell whether no computation needs a channel, or another effort has one column per joint."""
+    others = {own.name for own in channels if own is not bound and len(own.columns) == joints}
+    return CHANNELS[bound.name].need in UNNEEDED or (bound.name in EFFORTS and bool(others & set(EFFORTS)))
+
+
+def _default_columns(channel: Channel, table: Table, *, spare: bool) -> tuple[str, ...]:
+    """Find `q_1` to `q_n`, or the single `q` of a one-joint log; nothing where some of a spare one lack."""
     prefix = channel.prefix
     _refuse_count_from_zero(channel, table)
     numbered = [name for name in table.names if re.fullmatch(f"{prefix}_[1-9][0-9]{{0,3}}", name)]
@@ -191,7 +205,7 @@ def _default_columns(channel: Channel, table: Table) -> tuple[str, ...]:
     highest = max(int(name[len(prefix) + 1 :]) for name in numbered)
     wanted = _default_names(channel, highest)
     if len(numbered) < highest:
-        if channel.need in UNNEEDED:
+        if spare:
             return ()
         raise missing_error(channel.name, wanted, table, f"log {channel.name} of every joint; {OTHER_NAME}")
     return tuple(wanted)

@@ -19,6 +19,7 @@ from .blocks import unnamed_channels
 from .families import (
     along_arm,
     arm_of,
+    channel_by_unit,
     channel_of,
     name_words,
     named_families,
@@ -101,13 +102,18 @@ def explained(error: LogError, table: Table) -> LogError:
 def _half(table: Table) -> tuple[str, str] | None:
     """Tell what a file holds and what it lacks; None where its names say neither or both."""
     families = numbered_families(table.names) | single_families(table.names)
-    named = {channel for stem in families if (channel := channel_of(stem, ())) is not None}
+    named = set(map(_told, families)) - {None}
     recorded = (fill_in({PROFILE: name}, table.names) for name in PROFILES if _is_ordered(name, table.names))
     named |= {channel for filled in recorded if isinstance(filled, dict) for channel in filled}
     efforts = {*EFFORTS, "torque_ref"} & named
     if bool(efforts) == ("position" in named):
         return None
     return ("positions", "torque or current") if not efforts else ("torque or current", "positions")
+
+
+def _told(stem: str) -> str | None:
+    """Tell a channel by the words of a name, else by its unit."""
+    return channel_of(stem, ()) or channel_by_unit(stem)
 
 
 def _by_arm(families: Mapping[str, list[str]]) -> list[dict[str, list[str]]]:
@@ -231,7 +237,8 @@ def _channels(families: Mapping[str, list[str]]) -> dict[str, list[str]]:
             continue
         if CHANNELS[channel].need != "reference" or len(columns) == len(found.get("position", ())):
             found[channel] = columns
-    return found
+    by_unit = ((channel_by_unit(stem), stem) for stem in families if channel_of(stem, ()) is None)
+    return {channel: families[stem] for channel, stem in by_unit if channel is not None} | found
 
 
 def _is_whole(channels: Mapping[str, list[str]]) -> bool:

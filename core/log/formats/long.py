@@ -30,6 +30,9 @@ KEY_WORDS = frozenset(
 """Names of the column that says which joint a row is of, in small letters."""
 VALUE_WORDS = frozenset(("value", "values", "val", "data"))
 """Names of a single column whose meaning is the key's."""
+FEWEST_TURNS = 0.9
+"""At least this share of the rows name the joint that was named as many rows before as there are joints, and
+another one than the row before."""
 FEWEST_REPEATS = 0.5
 """At least this share of the stamps repeat the row before in a table of two joints or more."""
 MOST_KEYS = 64
@@ -99,10 +102,24 @@ def _long(table: Table) -> _Long | None:
     if not values or not 2 <= len(keys) <= MOST_KEYS:
         return None
     stamps = np.hstack(list(table.batches([stamp])))[0]
-    if np.mean(np.diff(stamps) == 0.0) < FEWEST_REPEATS * (1.0 - 1.0 / len(keys)):
-        return None  # a row per instant whose key says something else
     named = np.array(words)
+    if not _belongs_to_joints(stamps, named, len(keys), values):
+        return None  # a row per instant whose key says something else
     return _Long(key, keys, [np.flatnonzero(named == word) for word in keys], stamp, values)
+
+
+def _belongs_to_joints(stamps: np.ndarray, named: np.ndarray, keys: int, values: tuple[str, ...]) -> bool:
+    """Tell whether the rows of an instant are one of each joint's, or each joint has its turn."""
+    together = np.mean(np.diff(stamps) == 0.0) >= FEWEST_REPEATS * (1.0 - 1.0 / keys)
+    return bool(together) or _take_turns(named, keys, values)
+
+
+def _take_turns(named: np.ndarray, keys: int, values: tuple[str, ...]) -> bool:
+    """Tell whether joints that are asked one after the other each have a row, and columns without numbers."""
+    if len(named) <= keys or any(name[-1:].isdigit() for name in values):
+        return False
+    turns = np.mean(named[keys:] == named[:-keys]), np.mean(named[1:] != named[:-1])
+    return bool(min(turns) >= FEWEST_TURNS)
 
 
 def _is_stamp(name: str) -> bool:

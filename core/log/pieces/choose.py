@@ -14,7 +14,7 @@ from ...arrays import Samples
 from ..columns.layout import Layout
 from ..defects.runs import KEPT
 from ..model import ArraySource, Defect, LogRows, LogSource, rows_at
-from .ends import FEWEST_ROWS, BadEnd, bad_head, bad_tail
+from .ends import FEWEST_ROWS, BadEnd, bad_head, bad_tail, is_mostly_held
 from .missing import WHAT, check_missing, missing_defects
 from .order import Order, order_of
 from .source import Piece, PiecedSource, WithoutRows
@@ -151,9 +151,7 @@ def _trim(source: LogSource, run: Piece) -> tuple[Piece, list[tuple[BadEnd, Samp
 def _end(source: LogSource, run: Piece, *, first: bool) -> tuple[BadEnd | None, Samples]:
     """Judge one end, from as few rows as are enough."""
     size, end, rows = END_ROWS, None, None
-    while rows is None or (
-        end is not None and 2 * end.rows >= size // 2 and size // 4 < run.stop - run.start
-    ):
+    while rows is None or (size // 4 < run.stop - run.start and _goes_farther(rows, end, first=first)):
         if first:
             rows = source.rows(run.start, min(run.start + size, run.stop))
             end = bad_head(rows)
@@ -164,6 +162,13 @@ def _end(source: LogSource, run: Piece, *, first: bool) -> tuple[BadEnd | None, 
     if end is None:
         return None, rows.time[:0]
     return end, rows.time[: end.rows] if first else rows.time[-end.rows :]
+
+
+def _goes_farther(rows: LogRows, end: BadEnd | None, *, first: bool) -> bool:
+    """Tell whether so much of the rows that were read does not belong that more are needed to judge."""
+    if end is not None:
+        return 2 * end.rows >= len(rows.time)
+    return is_mostly_held(rows if first else rows_at(rows, slice(None, None, -1)))
 
 
 def _in_sequence(ordered: Chosen, pieces: list[Piece]) -> tuple[list[Piece], Defect]:

@@ -57,7 +57,9 @@ def bad_head(rows: LogRows) -> BadEnd | None:
     start, found = 0, None
     while len(rows.time) - start >= FEWEST_ROWS:
         time, position, torque = rows.time[start:], rows.position[start:], effort[start:]
-        new = _other_clock(time) or _far_position(position) or _idle_effort(torque)
+        new = (
+            _other_clock(time) or _far_position(position) or _idle_effort(torque) or _copies(position, torque)
+        )
         if new is None:
             break
         start += new.rows
@@ -69,6 +71,18 @@ def bad_tail(rows: LogRows) -> BadEnd | None:
     """Judge the last rows of a stretch, which are the first of the motion run backwards."""
     backwards = {name: values[::-1] for name, values in rows.channels().items()}
     return bad_head(LogRows(-rows.time[::-1], **backwards))
+
+
+def is_mostly_held(rows: LogRows) -> bool:
+    """Tell whether more than half of some rows say the same as the first: their end may be farther on.
+
+    Examples
+    --------
+    >>> is_mostly_held(LogRows(np.arange(9.0), np.zeros((9, 1)), np.arange(9.0)[:, None]))
+    True
+    """
+    channels = (rows.time[:, None], rows.position, rows.torque, rows.current)
+    return any(_held_rows(values) > len(values) // 2 for values in channels if values is not None)
 
 
 def _other_clock(time: Samples) -> BadEnd | None:
@@ -126,23 +140,52 @@ def _idle_effort(effort: JointSeries) -> BadEnd | None:
     return BadEnd(held, "torque", why)
 
 
+def _copies(position: JointSeries, effort: JointSeries) -> BadEnd | None:
+    """Find copies of one row, from which the motion goes on in an instant: nothing was measured there.
+
+    A joint that truly stands starts from rest, and its torque carries noise.
+    """
+    held = min(_held_rows(position), _held_rows(effort))
+    if not 1 < held < len(position) - 2:
+        return None
+    bends, usual, least = _bends(position, smallest=0.0)
+    bend = bends[held - 2]
+    if not np.any(bend > least):
+        return None
+    joint = int(np.argmax(np.where(bend > least, bend / usual, 0.0)))
+    why = (
+        f"they are copies of one row, and joint {joint + 1} moves on from it in an instant, with a second "
+        f"difference {bend[joint] / usual[joint]:.3g} times what the motion's stay below"
+    )
+    return BadEnd(held - 1, "file", why)
+
+
 def _held_rows(values: JointSeries) -> int:
     """Count the first rows that equal the first one on every joint."""
     differ = np.any(values != values[0], axis=1)
-    return int(np.argmax(differ)) if differ.any() else 0
+    return int(np.argmax(differ)) if differ.any() else len(values)
 
 
 def _jumps(values: JointSeries) -> tuple[InstantMask, InstantSeries, JointVector]:
     """Mark the steps that no motion makes, say how many times what is usual each is, and what is least."""
     steps = np.abs(np.diff(values, axis=0))
+    bends, usual, least = _bends(values)
+    own, onward = bends[:-2], np.maximum(bends[1:-1], bends[2:])
+    jumps = (own > least) & (own > ISOLATED * onward) & (steps[:-3] > DISPLACED * own)
+    return jumps, own / usual, least
+
+
+def _bends(
+    values: JointSeries, smallest: float = SMALLEST_SHARE
+) -> tuple[InstantSeries, JointVector, JointVector]:
+    """Give the second differences, what those of the motion stay below, and what is least to be a jump."""
+    steps = np.abs(np.diff(values, axis=0))
     bends = np.abs(np.diff(values, n=2, axis=0))
-    body = len(bends) // 4
+    body = max(len(bends) // 4, min(_held_rows(values), len(bends) - FEWEST_ROWS))
     usual = np.quantile(bends[body:], USUAL_SHARE, axis=0)
     grid = np.min(np.where(steps > 0.0, steps, np.inf), axis=0, initial=np.inf)
     span = np.ptp(values[body:], axis=0)
-    least = np.maximum(JUMP_FACTOR * usual, SMALLEST_SHARE * span)
+    least = np.maximum(JUMP_FACTOR * usual, smallest * span)
     least = np.maximum(least, np.where(np.isfinite(grid), GRID_STEPS * grid, np.inf))
-    own, onward = bends[:-2], np.maximum(bends[1:-1], bends[2:])
-    jumps = (own > least) & (own > ISOLATED * onward) & (steps[:-3] > DISPLACED * own)
     resolved = np.maximum(np.finfo(float).eps * np.ptp(values, axis=0), np.finfo(float).tiny)
-    return jumps, own / np.maximum(usual, resolved), least
+    return bends, np.maximum(usual, resolved), least

@@ -101,7 +101,8 @@ def _lost(rows: LogRows) -> SampleMask:
 def _lost_runs(values: Samples) -> tuple[Indices, Indices]:
     """Give the first samples of such runs, and the samples behind them.
 
-    The other steps show how large a step usually is; without any, the whole channel consists of such runs.
+    The other steps show how large a step usually is. Where every step leads into such a run or out of it, as
+    of a channel that is filled with zeros between its samples, those between the other values do.
     """
     edges = np.flatnonzero(values[1:] != values[:-1]) + 1
     steps = np.abs(values[edges] - values[edges - 1])
@@ -109,11 +110,15 @@ def _lost_runs(values: Samples) -> tuple[Indices, Indices]:
     short = (lengths >= FEWEST_LOST) & (lengths <= STANDING_ROWS)
     zeros = (values[edges[:-1]] == 0.0) & (lengths <= STANDING_ROWS)
     candidates = short | zeros
-    others = ~(np.append(candidates, False) | np.append(False, candidates)) & np.isfinite(steps)
-    if not others.any():
+    beside = np.append(candidates, values[-1] == 0.0) | np.append(values[0] == 0.0, candidates)
+    others = steps[~beside & np.isfinite(steps)]
+    if not len(others):
+        between = np.abs(np.diff(values[edges[:-1][~candidates]]))
+        others = between[np.isfinite(between) & (between > 0.0)]
+    if not len(others):
         return edges[:0], edges[:0]
-    leaps, usual = np.minimum(steps[:-1], steps[1:]), np.quantile(steps[others], USUAL_SHARE)
-    lost = short & (leaps > max(JUMP_FACTOR * usual, GRID_STEPS * steps[others].min()))
+    leaps, usual = np.minimum(steps[:-1], steps[1:]), np.quantile(others, USUAL_SHARE)
+    lost = short & (leaps > max(JUMP_FACTOR * usual, GRID_STEPS * others.min()))
     # A channel that passes zero has another sign behind it.
     same_sign = np.sign(values[edges[:-1] - 1]) * np.sign(values[edges[1:]]) > 0.0
     returns = zeros & same_sign & (leaps > usual)

@@ -187,6 +187,20 @@ def test_a_measured_length_that_is_described_too_short_is_named_or_what_equals_i
     assert not list(CONFLICTS["link_length"].hypotheses(described, trials))
 
 
+@pytest.mark.parametrize("wrong", [-0.1, 0.06, 0.0])
+def test_a_length_is_named_where_the_description_gives_placements_as_a_urdf_does(arm, wrong):
+    robot, log, sound = arm
+    links = [replace(link, row=None) for link in robot.links]
+    links[2] = replace(links[2], translation=links[2].translation + np.array([wrong, 0.0, 0.0]))
+    document = check_setup(IdentifyRequest(replace(robot, links=tuple(links)), (log,), {}))
+    assert [row["conflict"] for row in document["conflicts"]] == ["link_length"] * (wrong != 0.0)
+    for row in document["conflicts"]:
+        assert row["joints"] == [3]
+        described = row["correction"]["robot"]["joints"][2]["translation"]
+        np.testing.assert_allclose(described, robot.links[2].translation, atol=0.01)
+    assert mean_percent(document) < 1.05 * sound
+
+
 @pytest.mark.parametrize(("degrees", "blocks"), [((9, -1), 40), ((0, 8), 20), ((5, 9), 40), ((-3, 5), 40)])
 def test_nothing_is_named_in_the_place_of_a_slight_tilt_of_a_measured_arm(degrees, blocks):
     """Below the least angle a tilt is a cause. Its opposite may fit better, or the first torque in kN m."""
@@ -335,6 +349,19 @@ def test_a_log_that_its_model_explains_is_not_examined(arm, monkeypatch):
     assert identify(IdentifyRequest(robot, (log,), PLAIN))["conflicts"] == []
 
 
+@pytest.mark.parametrize("rows_late", [60, 137])
+def test_no_correction_is_more_likely_than_not_while_the_model_fails_on_a_joint(arm, rows_late):
+    """Torques that are late by a second are those of no corrected robot."""
+    robot, log, _ = arm
+    rows = whole_rows(log)
+    late = log_from_arrays(
+        "late", rows.time[:-rows_late], rows.position[:-rows_late], rows.torque[rows_late:]
+    )
+    document = check_setup(IdentifyRequest(robot, (late,), {}))
+    assert max(document["conflicts"][-1]["joint_errors_after_percent"]) > 50.0
+    assert max(row["confidence"] for row in document["conflicts"]) <= 0.5
+
+
 @pytest.mark.parametrize("name", sorted(CONFLICTS))
 def test_every_hypothesis_is_another_set_up_and_says_what_to_do(arm, name):
     robot, log, _ = arm
@@ -355,8 +382,12 @@ def test_every_hypothesis_is_another_set_up_and_says_what_to_do(arm, name):
         assert set(one.joints) <= {1, 2, 3, 4}
 
 
-def test_sound_measured_robots_have_no_conflict():
+@pytest.mark.parametrize("unit", [1.0, 1e-3])
+def test_sound_measured_robots_have_no_conflict(unit):
+    """Described bodies say nothing of it: with kN m on all joints one joint alone seemed to be in kN m."""
     robot, log = measured_robot("ur10e_open"), measured_log("ur10e_open", "fourier_30s_12h")
+    rows = whole_rows(log)
+    log = log_from_arrays(log.name, rows.time, rows.position, unit * rows.torque)
     motions = condition_all((log,), robot, FilterOptions(), blocks=20)
     assert find_conflicts(Setup.as_described(robot), Trials(sampled(motions, HoldOut().chosen(1)))) == ()
 

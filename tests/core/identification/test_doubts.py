@@ -1,10 +1,13 @@
 """Hold the doubts: a sound study raises none, and nonsense that still has an optimum is named."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters
 from veritorque.core.dynamics.model import standard_model
+from veritorque.core.estimate.constraints import link_columns
 from veritorque.core.log.model import whole_rows
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.study import IdentifyRequest, identify
@@ -84,6 +87,19 @@ def test_what_a_log_shows_against_itself_is_doubted_whatever_the_fit(world, fact
     found = _doubts(robot, rows, torque=np.round(torque) if said == "in whole numbers" else torque)
     (doubt,) = [one for one in found if one.startswith("Log log:")]
     assert said in doubt
+
+
+@pytest.mark.parametrize("factor", [1.0, 0.3, 0.02, 1e-3, 40.0])
+def test_torques_of_a_size_far_from_the_described_bodies_are_doubted_and_no_single_one_is(world, factor):
+    """All fit as well: only the description tells a unit, a gear or a percentage of all torques."""
+    robot, rows = world
+    model = standard_model(robot)
+    true = true_parameters(model)
+    bodies = true[np.array(link_columns(model))]
+    found = _doubts(replace(robot, prior=bodies), rows, torque=factor * rows.torque)
+    assert [one for one in found if "Robot and log disagree" in one] == []
+    doubted = [one for one in found if "the torque of the described ones" in one]
+    assert len(doubted) == (factor in (0.02, 1e-3, 40.0))
 
 
 def test_a_simulation_that_does_not_follow_the_log_is_doubted(world):

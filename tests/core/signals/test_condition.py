@@ -183,8 +183,10 @@ def test_a_stretch_between_gaps_that_is_too_short_is_left_out():
     assert at.max() < 10.0
 
 
-def test_a_log_without_a_stretch_that_is_long_enough_is_refused_in_words():
-    time = np.concatenate([15.0 * part + np.arange(100) / RATE_HZ for part in range(4)])
+@pytest.mark.parametrize(("rows", "parts", "apart_s"), [(100, 4, 15.0), (5, 200, 0.1)])
+def test_a_log_without_a_stretch_that_is_long_enough_is_refused_in_words(rows, parts, apart_s):
+    """Bursts of five rows are too short even to be looked at."""
+    time = np.concatenate([apart_s * part + np.arange(rows) / RATE_HZ for part in range(parts)])
     swing = Multisine.random(np.random.default_rng(8), 1)
     with pytest.raises(LogError, match="no stretch of the log between its gaps is long enough"):
         _conditioned(log_of(time, swing.position(time)))

@@ -23,7 +23,7 @@ function figures(document) {
   const ranked = [...named].sort((a, b) => a.relative_deviation_percent - b.relative_deviation_percent);
   const [best, worst] = [ranked[0], ranked.at(-1)];
   const errors = plain.validation.length ? plain.validation : plain.fit;
-  const byError = [...errors].sort((a, b) => a.nrmse_of_rms_percent - b.nrmse_of_rms_percent);
+  const byError = errors.filter((row) => row.nrmse_of_rms_percent !== null).sort((a, b) => a.nrmse_of_rms_percent - b.nrmse_of_rms_percent);
   const corrected = document.diagnosis?.after?.validation_total_percent ?? null;
   return [
     figure(corrected === null ? relative(held ?? plain.fit_total_percent) : `${relative(held)} → ${relative(corrected)}`,

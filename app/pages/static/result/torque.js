@@ -80,7 +80,7 @@ async function torquePlot(place, study, joint, log) {
     title: `Joint ${joint}`, unit: seen.units.torque_filtered, height: 190, together: `torque ${log}`, extent: seen.extent,
     x: { label: "time", unit: "s", values: seen.time }, marks: seen.marks, zoomed: (from, to) => { finer(from, to); finerRaw(from, to); },
     traces: tracesOf(seen),
-    note: `The error ${study.document.validation.length ? "on the held-out data (shaded)" : "on the fitted data"} is ${relative(score.nrmse_of_rms_percent)} of the torque RMS.`,
+    note: score.nrmse_of_rms_percent === null ? "The joint does not move: there is no error of it." : `The error ${study.document.validation.length ? "on the held-out data (shaded)" : "on the fitted data"} is ${relative(score.nrmse_of_rms_percent)} of the torque RMS.`,
   });
   study.traces.raw(joint, log).then((found) => {
     if (found === null || !place.isConnected) return;

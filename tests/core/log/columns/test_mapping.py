@@ -92,6 +92,17 @@ def test_one_sensor_for_an_arm_is_left_out_and_listed_unless_it_is_mapped(tmp_pa
         read_log(path, mapping={"temperature": {"columns": named, "unit": "degC"}})
 
 
+@pytest.mark.parametrize("named", [["current_1"], ["current_3"], ["current_1", "current_3"]])
+def test_currents_of_some_joints_beside_all_torques_are_left_out_and_listed(tmp_path, named):
+    columns = swing(joints=3) | {name: np.full(3000, 2.0) for name in named}
+    path = write_parquet(tmp_path / "log.parquet", columns)
+    read = read_log(path)
+    assert list(read.ignored_columns) == named
+    assert "current" not in read.channels
+    with pytest.raises(LogError, match="current"):
+        read_log(path, mapping={"torque": None})
+
+
 def test_an_undeclared_unit_is_answered_with_its_plausible_readings(tmp_path):
     columns = renamed({"q_1": "base", "q_2": "elbow"}, q_1=170 / 1.3, q_2=170 / 1.3)
     error = refusal(tmp_path, columns, {"position": {"columns": ["base", "elbow"]}})

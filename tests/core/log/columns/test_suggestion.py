@@ -28,6 +28,8 @@ def recorded(time, *names, time_scale=1.0, scales=()):
 RECORDERS = {
     "names of joints, pos and eff": recorded("t", "shoulder_pos", "elbow_pos", "shoulder_eff", "elbow_eff"),
     "names of joints, before": recorded("time", "pos_hip", "pos_knee", "torque_hip", "torque_knee"),
+    "units alone": recorded("t(s)", "jnt1(rad)", "jnt2(rad)", "mot1(Nm)", "mot2(Nm)"),
+    "plural": recorded("stamp", "positions_1", "positions_2", "efforts_1", "efforts_2"),
     "JointN_Pos": recorded("Time", "Joint1_Pos", "Joint2_Pos", "Joint1_Force", "Joint2_Force"),
     "Axis N": recorded("timestamp", "Axis 1 Position", "Axis 2 Position", "Axis 1 Torque", "Axis 2 Torque"),
     "units in brackets": recorded(
@@ -263,3 +265,19 @@ def test_where_the_robot_is_not_known_both_kinds_of_joint_are_suggested(tmp_path
         name: request["columns"] for name, request in sliding.items() if name != "time"
     }
     assert check_log(path).suggestion == turning
+
+
+def test_a_table_without_names_is_not_cut_in_halves_where_a_third_is_the_rate_of_another(tmp_path):
+    """Twelve columns may be of six joints or of four; only of four is one quantity another's derivative."""
+    columns = swing(joints=4)
+    time = columns["time"]
+    rates = {f"qd_{joint}": np.gradient(columns[f"q_{joint}"], time) for joint in range(1, 5)}
+    values = {"q": columns, "qd": rates, "tau": columns}
+    table = [time, *(values[name][f"{name}_{joint}"] for name in values for joint in range(1, 5))]
+    np.savetxt(tmp_path / "log.txt", np.column_stack(table), fmt="%.9f")
+    suggested = check_log(tmp_path / "log.txt").suggestion
+    assert {name: request.get("columns") for name, request in suggested.items() if name != "time"} == {
+        "position": [f"column_{place}" for place in range(2, 6)],
+        "velocity": [f"column_{place}" for place in range(6, 10)],
+        "torque": [f"column_{place}" for place in range(10, 14)],
+    }

@@ -63,11 +63,20 @@ def test_rows_of_a_joint_that_are_missing_are_missing_values(tmp_path):
     assert [(defect.kind, defect.count) for defect in log.defects][1] == ("missing_values", 2)
 
 
-def test_joints_sampled_at_instants_of_their_own_are_refused(tmp_path):
+def sometimes(number):
+    return number % 2 and number % 10 > 5
+
+
+def always(number):
+    return number % 2
+
+
+@pytest.mark.parametrize("late", [sometimes, always])
+def test_joints_sampled_at_instants_of_their_own_are_refused(tmp_path, late):
     path = tmp_path / "log.csv"
     header, *rows = long_rows("joint", "time,KEY,position,torque").split("\n")
     own = [
-        f"{float(time) + 0.001 * (number % 2 and number % 10 > 5):.6f},{rest}"
+        f"{float(time) + 0.001 * late(number):.6f},{rest}"
         for number, (time, _, rest) in enumerate(row.partition(",") for row in rows)
     ]
     path.write_text("\n".join([header, *own]))
@@ -76,11 +85,12 @@ def test_joints_sampled_at_instants_of_their_own_are_refused(tmp_path):
     assert refusal.value.evidence["rows"] == {"shoulder": 3000, "elbow": 3000}
 
 
-def test_a_column_called_id_does_not_make_a_table_long(tmp_path):
+@pytest.mark.parametrize("often", [2, 40])
+def test_a_column_called_id_does_not_make_a_table_long(tmp_path, often):
     path = tmp_path / "log.csv"
     header = ",".join([*COLUMNS, "id"])
     rows = [
-        ",".join(f"{value:.9f}" for value in row) + f",{number % 2}"
+        ",".join(f"{value:.9f}" for value in row) + f",{number % often == 0:d}"
         for number, row in enumerate(zip(*COLUMNS.values(), strict=True))
     ]
     path.write_text("\n".join([header, *rows]))

@@ -61,10 +61,10 @@ KINDS = {
 }  # fmt: skip  # a table
 
 
-@pytest.mark.parametrize("rows", [1, 2, 19, 700])
+@pytest.mark.parametrize("rows", [1, 2, 19, 700, 6000])
 @pytest.mark.parametrize("kind", KINDS)
 def test_bad_rows_at_an_end_are_left_out_and_nothing_else_is(kind, rows):
-    time, position, torque = healthy()
+    time, position, torque = healthy(seconds=20.0 if rows < 1000 else 80.0)
     KINDS[kind](time, position, torque, rows)
     log = log_from_arrays("spoilt", time, position, torque)
     (defect,) = [defect for defect in log.defects if defect.kind == "bad_end"]
@@ -101,6 +101,18 @@ def test_a_log_that_starts_at_rest_and_moves_off_keeps_all_its_rows(rate_hz, ste
     log = log_from_arrays("from rest", time, seen, torque)
     assert not [defect for defect in log.defects if defect.kind == "bad_end"]
     assert log.samples == len(time)
+
+
+@pytest.mark.parametrize("rows", [2, 19, 700, 6000])
+@pytest.mark.parametrize("behind", [False, True])
+def test_copies_of_the_row_that_the_motion_goes_on_from_are_a_bad_end(rows, behind):
+    time, position, torque = healthy(seconds=20.0 if rows < 1000 else 80.0)
+    held = slice(-rows, None) if behind else slice(None, rows)
+    kept = -rows - 1 if behind else rows
+    position[held], torque[held] = position[kept], torque[kept]
+    log = log_from_arrays("held", time, position, torque)
+    (defect,) = log.defects
+    assert (defect.kind, defect.count, log.samples) == ("bad_end", rows, len(time) - rows)
 
 
 def test_a_spike_near_an_end_is_a_spike_and_no_bad_end():

@@ -124,6 +124,18 @@ def test_zeros_in_a_coarse_log_are_left_out_however_small_their_leaps_are(tmp_pa
     assert {defect.kind: defect.count for defect in log.defects}["lost_values"] == len(lost) * rows
 
 
+@pytest.mark.parametrize("every", [2, 3, 4])
+@pytest.mark.parametrize("joints", [[0], [0, 1]])
+def test_zeros_between_the_samples_of_a_slower_channel_are_left_out(tmp_path, every, joints):
+    """A filter makes a half, or a third, of the torque of them, which no fit shows."""
+    torque = TORQUE + NOISE + np.array([0.0, 3.0])
+    filled = np.arange(3000) % every != 0
+    torque[np.ix_(filled, joints)] = 0.0
+    log = read(tmp_path, TIME, POSITION, torque)
+    assert abs(log.samples - np.count_nonzero(~filled)) <= every
+    assert "lost_values" in {defect.kind for defect in log.defects}
+
+
 def test_zeros_that_a_channel_passes_or_rests_at_are_its_own(tmp_path):
     """Of a coarse friction torque, and of a current that is not reported below its dead zone."""
     coarse = np.round(4.0 * np.tanh(40.0 * TORQUE[:, 0]) + NOISE[:, 0])
