@@ -26,10 +26,15 @@ from .instruments import Instruments
 from .plausible_size import has_known_size
 from .position_noise import noise_test
 from .spring_resonance import contradicts_resonance, resonance_evidence
+from .structure_left import StructureLeft, structure_test
 
 
 def finding(
-    found: SearchState, own: Comparison, after: JointSeries, unnamed: float, instruments: Instruments
+    found: SearchState,
+    own: Comparison,
+    after: JointSeries,
+    unnamed: float,
+    checks: tuple[Instruments, StructureLeft],
 ) -> Finding:
     """Compose the finding of one member of the chosen hypothesis.
 
@@ -42,8 +47,8 @@ def finding(
     unnamed
         Likelihood ratio statistic of an unnamed pattern in what is left: where it is larger than the
         finding's, the finding may be no more than its trace.
-    instruments
-        Estimates the members by instrumental variables.
+    checks
+        What estimates the members by instrumental variables, and what tests the residual for structure.
     """
     fitter, chosen, index = found.fitter, found.chosen, own.index
     dataset, left = fitter.dataset, (_baseline(fitter, chosen, index, own), after)
@@ -59,13 +64,15 @@ def finding(
     at = Setting(dataset, fitter.operating_point, member.site, member.scalars)
     scattered = _between_blocks(fitter, chosen, index, own)
     represented = cause.represented(at, solved) and has_known_size(cause, solved)
-    noise = noise_test(fitter, own.without, instruments, index, own.statistic)
+    noise = noise_test(fitter, own.without, checks[0], index, own.statistic)
+    structure = structure_test(checks[1], own.without, index, own.statistic)
     resonance = resonance_evidence(cause.id, at, solved)
     doubts = (
         min(own.margin, own.over_unnamed) < 0.0,
         not represented,
         _scatters(scattered),
         noise is not None and noise.doubts,
+        structure is not None and structure.doubts,
         contradicted_by_command(dataset.motions, cause.id, member.site, float(solved.values[0])),
         contradicts_resonance(resonance, solved),
     )
@@ -86,6 +93,7 @@ def finding(
             *_on_holdout(fitter, chosen, index, own),
             *scattered,
             *(() if noise is None else noise.evidence),
+            *(() if structure is None else structure.evidence),
             *resonance,
             *command_evidence(dataset.motions, cause.id, member.site),
         ),

@@ -1,0 +1,83 @@
+"""Hold findings to what they leave: a torque of several joints' angles is no spring of one of them."""
+
+import numpy as np
+import pytest
+
+from tests.core.diagnosis.scenes import fitter_of, recording, scene_of
+from veritorque.core.diagnosis.causes.protocol import Cause
+from veritorque.core.diagnosis.causes.spring_compensator import SpringCompensator
+from veritorque.core.diagnosis.causes.time_delay import TimeDelay
+from veritorque.core.diagnosis.checks.structure_left import (
+    StructureLeft,
+    StructureTest,
+    likeliest_process,
+    structure_test,
+)
+from veritorque.core.diagnosis.search.likelihood_ratio import likelihood_ratio
+from veritorque.core.diagnosis.thresholds.checks import STRUCTURE_LEFT
+
+JOINT, DELAY_S = 2, 0.01
+DRAWS, FUNCTIONS = 3000, 30
+
+
+def judged(cause: Cause, added: np.ndarray, site: tuple[int, ...]) -> StructureTest | None:
+    """Fit a cause to pinocchio's torque with another torque added, and test what it leaves."""
+    time, position, torque = recording()
+    fitter = fitter_of(scene_of(time, position, torque + added), (cause,))
+    none = fitter.fit(())
+    candidate = next(each.candidate for each in fitter.scan(none) if site in ((), each.candidate.site))
+    found = fitter.fit((candidate,), none)
+    return structure_test(StructureLeft(fitter, found), none, 0, likelihood_ratio(none, found))
+
+
+def between_links(stiffness: float) -> np.ndarray:
+    """Give the torque of the potential (1 - cos(1.5 q2 + q3)) that a bundle of cables between links may have."""
+    position = recording()[1]
+    bent = stiffness * np.sin(1.5 * position[:, 1] + position[:, 2])
+    return np.column_stack([0.0 * bent, 1.5 * bent, bent])
+
+
+def own_spring(stiffness: float) -> np.ndarray:
+    added = np.zeros_like(recording()[1])
+    added[:, JOINT - 1] = stiffness * recording()[1][:, JOINT - 1]
+    return added
+
+
+def test_a_spring_of_the_joint_leaves_no_structure():
+    assert judged(SpringCompensator(), own_spring(1.5), (JOINT,)) is None
+
+
+def test_a_spring_that_stands_for_cables_between_links_is_doubtful():
+    found = judged(SpringCompensator(), between_links(0.8), (JOINT,))
+    assert found is not None
+    assert found.doubts
+    assert found.share > STRUCTURE_LEFT.share
+    assert (found.worst, found.of) == (JOINT, "the angles of all joints")
+
+
+def test_joints_without_structure_are_evidence_enough():
+    time, position, torque = recording()
+    late = np.array([np.interp(time - DELAY_S, time, column) for column in torque.T]).T
+    spoilt = np.zeros_like(torque)
+    spoilt[:, 2] = 2.0 * np.sin(2.0 * position[:, 0] + position[:, 2])
+    found = judged(TimeDelay(), late - torque + spoilt, ())
+    assert found is not None
+    assert found.worst == 3
+    assert not found.doubts
+
+
+@pytest.mark.parametrize("decay", [0.0, 0.2], ids=["alike", "a few count"])
+def test_noise_is_no_structure(decay):
+    rng = np.random.default_rng(1)
+    sizes = np.exp(-decay * np.arange(FUNCTIONS))
+    drawn = rng.normal(size=(DRAWS, FUNCTIONS)) * np.sqrt(sizes)
+    statistics = np.array([likeliest_process(np.diag(sizes), slope).statistic for slope in drawn])
+    assert np.mean(statistics > STRUCTURE_LEFT.statistic) < 2e-3
+    assert np.mean(statistics > 2.7) < 0.1
+
+
+def test_many_small_coefficients_are_seen_together():
+    rng = np.random.default_rng(2)
+    slopes = rng.normal(size=(100, FUNCTIONS)) + 1.5 * rng.normal(size=(100, FUNCTIONS))
+    statistics = [likeliest_process(np.eye(FUNCTIONS), slope).statistic for slope in slopes]
+    assert np.mean(np.array(statistics) > STRUCTURE_LEFT.statistic) > 0.8
