@@ -18,7 +18,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...arrays import JointVector, Matrix, SquareMatrix, Vector
+from ...arrays import JointVector, Matrix, SquareMatrix, Vector, Weights
 from ...dynamics.prediction import Prediction
 from ..dataset.dataset import Dataset
 from ..regression.rows import JointRows, append_columns
@@ -73,6 +73,23 @@ class StructureLeft:
         again = ratio_without_effect(self._rows, self.whole.fit, effect) - found.penalty
         return Structure(max(found.statistic, again), names[best])
 
+    def of_inexact_columns(self, joint: int) -> float:
+        """Give the statistic of what the error of first-order columns may leave on a joint."""
+        part = self.whole.fit.joints[joint]
+        return sum(
+            error**2 * float(np.sum((part.torque - part.left(beside)) ** 2)) for error, beside in self._beside
+        )
+
+    @cached_property
+    def _beside(self) -> list[tuple[float, Weights]]:
+        """Give, per member, the error of its columns, and the coefficients of what no other columns span of it."""
+        fit, found = self.whole.fit, []
+        for index, member in enumerate(self.whole.members):
+            own = self.whole.columns_of(index)
+            along = np.linalg.solve(fit.covariance[own, own], fit.values[own])
+            found.append((member.cause.traits.linearisation_error, fit.covariance[:, own] @ along))
+        return found
+
     @cached_property
     def _rows(self) -> tuple[JointRows, ...]:
         return append_columns(self.fitter.rows.fitted, self.fitter.columns(self.whole.members))
@@ -105,7 +122,6 @@ def smooth_functions(dataset: Dataset, point: Prediction, joint: int) -> Mapping
         "the angles of all joints": np.hstack([angles, own[:, :1] * others, own[:, 1:] * others]),
         "speeds and angles": np.hstack([speed, way, speed[:, [joint]] * angles, way[:, [joint]] * angles]),
         "time": np.hstack([course, load * course, speed[:, [joint]] * course, way[:, [joint]] * course]),
-        "its load": np.hstack([load * np.abs(load), load**3, load * angles]),
         "the rate of its load": rate / _size(rate),
     }
 
@@ -152,35 +168,37 @@ def likeliest_process(gram: SquareMatrix, slope: Vector) -> Process:
 
 @dataclass(frozen=True)
 class StructureTest:
-    """Hold what a finding explains beside what is left on the joints that it acts on."""
+    """Hold what a finding explains beside the structure that is left on the joints that it acts on."""
 
     worst: int
     """The joint, counted from 1, with the most structure over what the finding explains there."""
-    share: float
     of: str
-    """That share, and what the structure is a function of."""
+    """What that structure is a function of."""
+    share: float
+    """Structure on all joints that have too much of it, over what the finding explains on all."""
     log_p: float
-    """Log of the finding's p-value by the joints on which little structure is left."""
+    """Log of the finding's p-value by the other joints."""
 
     @property
     def doubts(self) -> bool:
-        """Tell whether those joints alone do not show the finding."""
-        return self.log_p > float(np.log(STRUCTURE_LEFT.level))
+        """Tell whether the other joints do not show the finding, or much more is left than that."""
+        return self.log_p > float(np.log(STRUCTURE_LEFT.level)) or self.share > STRUCTURE_LEFT.share_of_all
 
     @property
     def evidence(self) -> tuple[Evidence, ...]:
         """State the two."""
         return (
             Evidence(
-                f"Log-likelihood ratio statistic of a smooth function of {self.of} in what is left on joint "
-                f"{self.worst}, over that of the finding there; where it exceeds {STRUCTURE_LEFT.share:g}, the "
-                "joint is no evidence",
+                "Log-likelihood ratio statistic of smooth functions of the motion in what is left, most on joint "
+                f"{self.worst} and of {self.of}, over that of the finding; above {STRUCTURE_LEFT.share_of_all:g} "
+                "the finding is doubtful",
                 "structure left",
                 self.share,
             ),
             Evidence(
-                "Logarithm of the p-value by the other joints; above "
-                f"{np.log10(STRUCTURE_LEFT.level):.0f} the finding is doubtful",
+                "Logarithm of the p-value by the joints on which they explain less than "
+                f"{100.0 * STRUCTURE_LEFT.share:.0f} % of what the finding does; above "
+                f"{np.log10(STRUCTURE_LEFT.level):.0f} it is doubtful",
                 "log10 p beside structure",
                 self.log_p / float(np.log(10.0)),
             ),
@@ -190,7 +208,7 @@ class StructureTest:
 def structure_test(
     left: StructureLeft, without: Hypothesis, index: int, statistic: float
 ) -> StructureTest | None:
-    """Test a member of a hypothesis; None where no structure is left on the joints that it acts on.
+    """Test a member of a hypothesis; None where little structure is left on the joints that it acts on.
 
     Parameters
     ----------
@@ -205,18 +223,20 @@ def structure_test(
         return None
     gained = likelihood_ratio_by_joint(without, whole)
     acting = [joint for joint in sorted(fitter.columns([member])[0]) if gained[joint] > 0.0]
-    shares = {joint: left.on(joint).statistic / float(gained[joint]) for joint in acting}
-    spoilt = [joint for joint in acting if _is_spoilt(left.on(joint), shares[joint])]
+    spoilt = [joint for joint in acting if _is_spoilt(left, joint, float(gained[joint]))]
     if not spoilt:
         return None
-    worst = max(spoilt, key=lambda joint: shares[joint])
+    worst = max(spoilt, key=lambda joint: left.on(joint).statistic / float(gained[joint]))
     clean = float(sum(gained[joint] for joint in acting if joint not in spoilt))
+    share = sum(left.on(joint).statistic for joint in spoilt) / float(np.sum(gained[acting]))
     log_p = log_p_of(fitter, whole, index, min(clean, statistic))
-    return StructureTest(worst + 1, shares[worst], left.on(worst).of, log_p)
+    return StructureTest(worst + 1, left.on(worst).of, share, log_p)
 
 
-def _is_spoilt(structure: Structure, share: float) -> bool:
-    return structure.statistic > STRUCTURE_LEFT.statistic and share > STRUCTURE_LEFT.share
+def _is_spoilt(left: StructureLeft, joint: int, gained: float) -> bool:
+    """Tell whether more structure is left on a joint than noise makes, or inexact columns, or a share."""
+    least = max(STRUCTURE_LEFT.statistic, STRUCTURE_LEFT.share * gained)
+    return left.on(joint).statistic > max(least, left.of_inexact_columns(joint))
 
 
 def _size(columns: Matrix) -> JointVector:
