@@ -11,7 +11,7 @@ Processes for Machine Learning (2006), ch. 2 and 5; Kennedy & O'Hagan, J. R. Sta
 discrepancy as a Gaussian process; Ramsey, J. R. Stat. Soc. B 31(2), 1969, on tests of a specification.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -22,7 +22,7 @@ from ...arrays import JointVector, Matrix, SquareMatrix, Vector, Weights
 from ...dynamics.prediction import Prediction
 from ..dataset.dataset import Dataset
 from ..regression.rows import JointRows, append_columns
-from ..result import Evidence
+from ..result import Evidence, Finding
 from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Hypothesis
 from ..search.likelihood_ratio import likelihood_ratio_by_joint, log_p_of
@@ -33,6 +33,8 @@ VARIANCES = np.geomspace(1e-4, 1e4, 40)
 """Variances of the coefficients that are tried, over that at which functions weigh as much as noise."""
 STEEP = 4.0
 """Slope of a direction of motion at standstill, over a joint's RMS speed."""
+SHARE, LOG_P = "structure left", "log10 p beside structure"
+"""Names of the statistics."""
 
 
 @dataclass(frozen=True)
@@ -182,7 +184,7 @@ class StructureTest:
     @property
     def doubts(self) -> bool:
         """Tell whether the other joints do not show the finding, or much more is left than that."""
-        return self.log_p > float(np.log(STRUCTURE_LEFT.level)) or self.share > STRUCTURE_LEFT.share_of_all
+        return _is_too_much(self.share, self.log_p / float(np.log(10.0)))
 
     @property
     def evidence(self) -> tuple[Evidence, ...]:
@@ -192,14 +194,14 @@ class StructureTest:
                 "Log-likelihood ratio statistic of smooth functions of the motion in what is left, most on joint "
                 f"{self.worst} and of {self.of}, over that of the finding; above {STRUCTURE_LEFT.share_of_all:g} "
                 "the finding is doubtful",
-                "structure left",
+                SHARE,
                 self.share,
             ),
             Evidence(
                 "Logarithm of the p-value by the joints on which they explain less than "
                 f"{100.0 * STRUCTURE_LEFT.share:.0f} % of what the finding does; above "
                 f"{np.log10(STRUCTURE_LEFT.level):.0f} it is doubtful",
-                "log10 p beside structure",
+                LOG_P,
                 self.log_p / float(np.log(10.0)),
             ),
         )
@@ -231,6 +233,16 @@ def structure_test(
     share = sum(left.on(joint).statistic for joint in spoilt) / float(np.sum(gained[acting]))
     log_p = log_p_of(fitter, whole, index, min(clean, statistic))
     return StructureTest(worst + 1, left.on(worst).of, share, log_p)
+
+
+def nothing_beside_structure(findings: Sequence[Finding]) -> bool:
+    """Tell whether there are findings, and too much structure is left beside each."""
+    told = [{one.statistic: one.value for one in finding.evidence} for finding in findings]
+    return bool(told) and all(SHARE in one and _is_too_much(one[SHARE], one[LOG_P]) for one in told)
+
+
+def _is_too_much(share: float, log10_p: float) -> bool:
+    return share > STRUCTURE_LEFT.share_of_all or log10_p > float(np.log10(STRUCTURE_LEFT.level))
 
 
 def _is_spoilt(left: StructureLeft, joint: int, gained: float) -> bool:

@@ -1,9 +1,14 @@
 """Hold findings to what they leave: a torque of several joints' angles is no spring of one of them."""
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 from tests.core.diagnosis.scenes import fitter_of, recording, scene_of
+from tests.plant import second
 from veritorque.core.diagnosis.causes.protocol import Cause
 from veritorque.core.diagnosis.causes.spring_compensator import SpringCompensator
 from veritorque.core.diagnosis.causes.time_delay import TimeDelay
@@ -14,10 +19,14 @@ from veritorque.core.diagnosis.checks.structure_left import (
     structure_test,
 )
 from veritorque.core.diagnosis.search.likelihood_ratio import likelihood_ratio
-from veritorque.core.diagnosis.thresholds.checks import STRUCTURE_LEFT
+from veritorque.core.diagnosis.thresholds.checks import CONFIDENCE, STRUCTURE_LEFT
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.study import IdentifyRequest, diagnose
 
 JOINT, DELAY_S = 2, 0.01
 DRAWS, FUNCTIONS = 3000, 30
+SECONDS, STIFFNESS, LENGTH, REACH, FIXED = 25.0, 20.0, 0.2, 0.3, 0.2 + 0.3j
+"""A spring of so many N/m and m, from a point that is fixed (m) to one on the second link."""
 
 
 def judged(cause: Cause, added: np.ndarray, site: tuple[int, ...]) -> StructureTest | None:
@@ -38,9 +47,50 @@ def between_links(stiffness: float) -> np.ndarray:
 
 
 def own_spring(stiffness: float) -> np.ndarray:
+    """Give the torque of a spring on one joint."""
     added = np.zeros_like(recording()[1])
     added[:, JOINT - 1] = stiffness * recording()[1][:, JOINT - 1]
     return added
+
+
+def planar_arm(seed: int, *, cables: bool) -> Mapping[str, Any]:
+    """Diagnose an arm by its closed equations, with cables to its base or a spring on its second joint."""
+    rng = np.random.default_rng([seed, 5])
+    body, reference = second._body(rng), second._reference(rng, 0.8)
+    time = np.arange(0.0, SECONDS, 1.0 / second.RATE_HZ)
+    angle = np.array([reference.at(instant)[0] for instant in time])
+    rate, bend = (CubicSpline(time, angle)(time, order) for order in (1, 2))
+    torque = np.array(
+        [body.mass(q) @ a + body.bias(q, v) for q, v, a in zip(angle, rate, bend, strict=True)]
+    )
+    torque += body.viscous * rate + body.coulomb * np.tanh(rate / 1e-3)
+    torque += of_cables(angle) if cables else STIFFNESS * REACH**2 * angle * [0.0, 1.0]
+    torque += 0.005 * torque.std(axis=0) * rng.normal(size=torque.shape)
+    log = log_from_arrays("cables", time, angle, torque)
+    found = diagnose(IdentifyRequest(second.robot(), (log,), {"bootstrap": {"draws": 0}}))["diagnosis"]
+    assert isinstance(found, dict)
+    return found
+
+
+def of_cables(angle: np.ndarray) -> np.ndarray:
+    """Give the torque against a spring from a fixed point to the second link."""
+    first, last = second.LINK * np.exp(1j * angle[:, 0]), REACH * np.exp(1j * angle.sum(axis=1))
+    way = first + last - FIXED
+    force = STIFFNESS * (1.0 - LENGTH / np.abs(way)) * way
+    return np.column_stack([(lever * np.conj(force)).real for lever in (1j * (first + last), 1j * last)])
+
+
+def test_cables_to_the_base_are_no_spring_of_a_joint():
+    found = planar_arm(4, cables=True)
+    assert SpringCompensator.id in [each["cause"] for each in found["findings"]]
+    assert all(each["confidence"] <= CONFIDENCE.doubtful for each in found["findings"])
+    assert found["verdict"] == "unexplained"
+
+
+def test_a_spring_of_the_same_arm_is_named():
+    (found,) = planar_arm(4, cables=False)["findings"]
+    assert (found["cause"], found["joints"]) == (SpringCompensator.id, [2])
+    assert found["confidence"] > 0.9
 
 
 def test_a_spring_of_the_joint_leaves_no_structure():
