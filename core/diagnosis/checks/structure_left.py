@@ -2,10 +2,10 @@
 
 A name is as good as the model that it completes. Where a joint's residual still follows the motion by much
 beside what a finding explains there, the finding may stand for a part of something else. What is left is
-compared with Gaussian processes: smooth functions of all joints' angles, of their speeds, of time, of the load
-and of its rate. A coefficient per function, all of one normal distribution, is a linear Gaussian process;
-its variance of largest likelihood gives a likelihood ratio, which counts in the units of the finding's own.
-Many functions that explain little each are seen together, and cost no more than one parameter.
+compared with Gaussian processes: smooth functions of all joints' angles, of their speeds, of time, and of
+the load's rate. A coefficient per function, all of one normal distribution, is a linear Gaussian process; its
+variance of largest likelihood gives a likelihood ratio, which counts in the units of the finding's own. Many
+functions that explain little each are seen together, and cost no more than one parameter.
 Sources: Lin, Biometrika 84(2), 1997, on tests of a variance component; Rasmussen & Williams, Gaussian
 Processes for Machine Learning (2006), ch. 2 and 5; Kennedy & O'Hagan, J. R. Stat. Soc. B 63, 2001, on a
 discrepancy as a Gaussian process; Ramsey, J. R. Stat. Soc. B 31(2), 1969, on tests of a specification.
@@ -24,7 +24,7 @@ from ..dataset.dataset import Dataset
 from ..regression.rows import JointRows, append_columns
 from ..result import Evidence, Finding
 from ..search.fitter import HypothesisFitter
-from ..search.hypothesis import Hypothesis
+from ..search.hypothesis import Candidate, Hypothesis
 from ..search.likelihood_ratio import likelihood_ratio_by_joint, log_p_of
 from ..search.lr_bound import ratio_without_effect
 from ..thresholds.checks import STRUCTURE_LEFT
@@ -84,7 +84,7 @@ class StructureLeft:
 
     @cached_property
     def _beside(self) -> list[tuple[float, Weights]]:
-        """Give, per member, the error of its columns, and the coefficients of what no other columns span of it."""
+        """Give, per member, the error of its columns, and coefficients of what no other columns span."""
         fit, found = self.whole.fit, []
         for index, member in enumerate(self.whole.members):
             own = self.whole.columns_of(index)
@@ -184,16 +184,16 @@ class StructureTest:
     @property
     def doubts(self) -> bool:
         """Tell whether the other joints do not show the finding, or much more is left than that."""
-        return _is_too_much(self.share, self.log_p / float(np.log(10.0)))
+        return _is_too_much(self.share, self.log_p * float(np.log10(np.e)))
 
     @property
     def evidence(self) -> tuple[Evidence, ...]:
         """State the two."""
         return (
             Evidence(
-                "Log-likelihood ratio statistic of smooth functions of the motion in what is left, most on joint "
-                f"{self.worst} and of {self.of}, over that of the finding; above {STRUCTURE_LEFT.share_of_all:g} "
-                "the finding is doubtful",
+                "Log-likelihood ratio statistic of smooth functions of the motion in what is left, most on "
+                f"joint {self.worst} and of {self.of}, over that of the finding; above "
+                f"{STRUCTURE_LEFT.share_of_all:g} the finding is doubtful",
                 SHARE,
                 self.share,
             ),
@@ -202,7 +202,7 @@ class StructureTest:
                 f"{100.0 * STRUCTURE_LEFT.share:.0f} % of what the finding does; above "
                 f"{np.log10(STRUCTURE_LEFT.level):.0f} it is doubtful",
                 LOG_P,
-                self.log_p / float(np.log(10.0)),
+                self.log_p * float(np.log10(np.e)),
             ),
         )
 
@@ -223,16 +223,23 @@ def structure_test(
     member = whole.members[index]
     if member.cause.traits.transient:
         return None
-    gained = likelihood_ratio_by_joint(without, whole)
-    acting = [joint for joint in sorted(fitter.columns([member])[0]) if gained[joint] > 0.0]
-    spoilt = [joint for joint in acting if _is_spoilt(left, joint, float(gained[joint]))]
+    gained = _gained(left, without, member)
+    spoilt = [joint for joint, own in gained.items() if _is_spoilt(left, joint, own)]
     if not spoilt:
         return None
-    worst = max(spoilt, key=lambda joint: left.on(joint).statistic / float(gained[joint]))
-    clean = float(sum(gained[joint] for joint in acting if joint not in spoilt))
-    share = sum(left.on(joint).statistic for joint in spoilt) / float(np.sum(gained[acting]))
+    worst = max(spoilt, key=lambda joint: left.on(joint).statistic / gained[joint])
+    whole_gain = sum(gained.values())
+    clean = whole_gain - sum(gained[joint] for joint in spoilt)
+    share = sum(left.on(joint).statistic for joint in spoilt) / whole_gain
     log_p = log_p_of(fitter, whole, index, min(clean, statistic))
     return StructureTest(worst + 1, left.on(worst).of, share, log_p)
+
+
+def _gained(left: StructureLeft, without: Hypothesis, member: Candidate) -> dict[int, float]:
+    """Give what a member explains on each joint that it acts on and helps."""
+    by_joint = likelihood_ratio_by_joint(without, left.whole)
+    acting = left.fitter.columns([member])[0]
+    return {joint: float(by_joint[joint]) for joint in acting if by_joint[joint] > 0.0}
 
 
 def nothing_beside_structure(findings: Sequence[Finding]) -> bool:

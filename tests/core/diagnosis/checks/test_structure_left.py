@@ -40,7 +40,7 @@ def judged(cause: Cause, added: np.ndarray, site: tuple[int, ...]) -> StructureT
 
 
 def between_links(stiffness: float) -> np.ndarray:
-    """Give the torque of the potential (1 - cos(1.5 q2 + q3)) that a bundle of cables between links may have."""
+    """Give the torque of a potential 1 - cos(1.5 q2 + q3), as a bundle of cables may have."""
     position = recording()[1]
     bent = stiffness * np.sin(1.5 * position[:, 1] + position[:, 2])
     return np.column_stack([0.0 * bent, 1.5 * bent, bent])
@@ -60,9 +60,7 @@ def planar_arm(seed: int, *, cables: bool) -> Mapping[str, Any]:
     time = np.arange(0.0, SECONDS, 1.0 / second.RATE_HZ)
     angle = np.array([reference.at(instant)[0] for instant in time])
     rate, bend = (CubicSpline(time, angle)(time, order) for order in (1, 2))
-    torque = np.array(
-        [body.mass(q) @ a + body.bias(q, v) for q, v, a in zip(angle, rate, bend, strict=True)]
-    )
+    torque = np.array([body.mass(q) @ a + body.bias(q, v) for q, v, a in zip(angle, rate, bend, strict=True)])
     torque += body.viscous * rate + body.coulomb * np.tanh(rate / 1e-3)
     torque += of_cables(angle) if cables else STIFFNESS * REACH**2 * angle * [0.0, 1.0]
     torque += 0.005 * torque.std(axis=0) * rng.normal(size=torque.shape)
