@@ -27,6 +27,7 @@ from .checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
 from .checks.lagging_reference import beside_reference, lagging_reference
 from .checks.reservations import beside_dead_zones
 from .checks.spring_resonance import beside_what_swings
+from .checks.structure_left import StructureLeft, nothing_beside_structure
 from .dataset.dataset import Dataset, build_dataset, later_torque, refuse_too_little, refuse_unjudged
 from .problem import DiagnosisProblem
 from .residual.atlas import atlas
@@ -68,17 +69,18 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     unnamed = _unnamed_pattern(found, after)
     statistic = 0.0 if unnamed is None else unnamed.statistic
     unnamed = _most_significant(unnamed, burst(dataset, after))
-    instruments = Instruments(fitter, chosen)
-    named = [finding(found, own, after, statistic, instruments) for own in comparisons]
+    checks = Instruments(fitter, chosen), StructureLeft(fitter, chosen)
+    named = [finding(found, own, after, statistic, checks) for own in comparisons]
     findings = beside_reference(beside_dead_zones([*named, *faults]), lagging)
     findings, swings = beside_what_swings(findings)
+    doubted = any((lagging, swings, nothing_beside_structure(findings)))
     tell("predict the residual", 0.8)
     noise = tuple(joint.noise for joint in chosen.fit.joints)
     predictable = predictable_share(dataset, after, fitter.operating_point, noise)
     tell("prepare figures", 0.95)
     most = max((own.statistic for own in comparisons), default=0.0)
     return Diagnosis(
-        verdict="unexplained" if any((lagging, swings)) else _verdict(findings, predictable, unnamed, most),
+        verdict="unexplained" if doubted else _verdict(findings, predictable, unnamed, most),
         findings=tuple(sorted(findings, key=lambda finding: finding.p_value)),
         not_identifiable=_not_identifiable(found),
         predictable=predictable,

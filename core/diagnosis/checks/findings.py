@@ -24,12 +24,17 @@ from .figure import curve
 from .gain import gain
 from .instruments import Instruments
 from .plausible_size import has_known_size
-from .position_noise import noise_test
+from .position_noise import NoiseTest, noise_test
 from .spring_resonance import contradicts_resonance, resonance_evidence
+from .structure_left import StructureLeft, StructureTest, structure_test
 
 
 def finding(
-    found: SearchState, own: Comparison, after: JointSeries, unnamed: float, instruments: Instruments
+    found: SearchState,
+    own: Comparison,
+    after: JointSeries,
+    unnamed: float,
+    checks: tuple[Instruments, StructureLeft],
 ) -> Finding:
     """Compose the finding of one member of the chosen hypothesis.
 
@@ -42,8 +47,8 @@ def finding(
     unnamed
         Likelihood ratio statistic of an unnamed pattern in what is left: where it is larger than the
         finding's, the finding may be no more than its trace.
-    instruments
-        Estimates the members by instrumental variables.
+    checks
+        What estimates the members by instrumental variables, and what tests the residual for structure.
     """
     fitter, chosen, index = found.fitter, found.chosen, own.index
     dataset, left = fitter.dataset, (_baseline(fitter, chosen, index, own), after)
@@ -59,13 +64,13 @@ def finding(
     at = Setting(dataset, fitter.operating_point, member.site, member.scalars)
     scattered = _between_blocks(fitter, chosen, index, own)
     represented = cause.represented(at, solved) and has_known_size(cause, solved)
-    noise = noise_test(fitter, own.without, instruments, index, own.statistic)
+    tests = _tests(fitter, own, checks)
     resonance = resonance_evidence(cause.id, at, solved)
     doubts = (
         min(own.margin, own.over_unnamed) < 0.0,
         not represented,
         _scatters(scattered),
-        noise is not None and noise.doubts,
+        *(test.doubts for test in tests),
         contradicted_by_command(dataset.motions, cause.id, member.site, float(solved.values[0])),
         contradicts_resonance(resonance, solved),
     )
@@ -85,7 +90,7 @@ def finding(
             *_evidence(own, log_p, member.trials),
             *_on_holdout(fitter, chosen, index, own),
             *scattered,
-            *(() if noise is None else noise.evidence),
+            *(one for test in tests for one in test.evidence),
             *resonance,
             *command_evidence(dataset.motions, cause.id, member.site),
         ),
@@ -95,6 +100,17 @@ def finding(
         curve=curve(dataset, fitter.operating_point, chosen, index, columns, left),
         member=member,
     )
+
+
+def _tests(
+    fitter: HypothesisFitter, own: Comparison, checks: tuple[Instruments, StructureLeft]
+) -> tuple[NoiseTest | StructureTest, ...]:
+    """Test for noise of the positions, and for structure that is left."""
+    found = (
+        noise_test(fitter, own.without, checks[0], own.index, own.statistic),
+        structure_test(checks[1], own.without, own.index, own.statistic),
+    )
+    return tuple(test for test in found if test is not None)
 
 
 def _evidence(own: Comparison, log_p: float, trials: float) -> tuple[Evidence, ...]:

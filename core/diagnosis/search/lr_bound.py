@@ -32,10 +32,10 @@ def predicted_likelihood_ratios(
         {joint: own[rows[joint].rows] @ scored.values for joint, own in kind.items()}
         for scored, kind in zip(scans, columns, strict=True)
     )
-    return [_statistic(rows, now.fit, effect) for effect in effects]
+    return [ratio_without_effect(rows, now.fit, effect) for effect in effects]
 
 
-def _statistic(joints: tuple[JointRows, ...], now: Fit, effect: Effect) -> float:
+def ratio_without_effect(joints: tuple[JointRows, ...], now: Fit, effect: Effect) -> float:
     """Take an effect out of the residual, and estimate the noise again where it acts, as a fit would.
 
     A fit under ordinary noise estimates it from the residual of the ordinary fit, which has its own values.
