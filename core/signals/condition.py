@@ -63,7 +63,8 @@ def condition(
     Raises
     ------
     LogError
-        If the log has another number of joints than the robot, or currents without declared constants.
+        If the log has another number of joints than the robot, or currents without declared constants, or no
+        stretch between gaps that is long enough.
     """
     if log.joints != len(robot.joints):
         raise LogError(
@@ -78,12 +79,6 @@ def condition(
         for segment in (gap_free(log, recipe, span, motors) for span in log.segments)
         if segment is not None
     )
-    if not segments:
-        raise LogError(
-            "no stretch of the log between its gaps is long enough to be differentiated",
-            evidence={"longest_samples": max(stop - start for start, stop in log.segments), "log": log.name},
-            remedy="record at least one second without gaps",
-        )
     return Motion(log, recipe, effort_scale(log, robot), blocks, segments)
 
 

@@ -10,7 +10,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from ..arrays import JointMarks, JointVector, Mask
-from ..errors import OptionError
+from ..errors import LogError, OptionError
 from ..log.model import JointLog
 from ..robot.joint_units import largest_of_kind
 from .noise_band import ATTENUATION, OUTWEIGHED, noise_cutoff
@@ -144,6 +144,8 @@ def choose_recipe(log: JointLog, options: FilterOptions, prismatic: Mask | None 
     ------
     OptionError
         If a given cut-off does not fit the log's rate or motion.
+    LogError
+        If no stretch between gaps is long enough to be differentiated.
     """
     sliding = np.zeros(log.joints, dtype=bool) if prismatic is None else prismatic
     known, asked = _CHOSEN.setdefault(log, {}), (options, sliding.tobytes())
@@ -151,8 +153,15 @@ def choose_recipe(log: JointLog, options: FilterOptions, prismatic: Mask | None 
 
 
 def _choose(log: JointLog, options: FilterOptions, prismatic: Mask) -> Recipe:
+    rates = segment_rates(log)
+    if not rates:
+        raise LogError(
+            "no stretch of the log between its gaps is long enough to be differentiated",
+            evidence={"longest_samples": max(stop - start for start, stop in log.segments), "log": log.name},
+            remedy="record at least one second without gaps",
+        )
     rate, survey = log.rate_hz, survey_of(log, options.median_order)
-    bands, speeds, slowest = survey.bands, survey.speeds, min([survey.slowest, *segment_rates(log)])
+    bands, speeds, slowest = survey.bands, survey.speeds, min(survey.slowest, *rates)
     still_speed = _still_speed(survey, prismatic)
     moving = bands[speeds > still_speed]
     band = float(moving.max()) if len(moving) else 1.0
