@@ -18,7 +18,7 @@ from scipy.linalg.lapack import dpotrs
 
 from ...arrays import JointVector, Matrix, SquareMatrix, Vector, Weights
 from ...estimate.gaussian_prior import GaussianPrior
-from ..thresholds.regression import NOISE
+from ..thresholds.regression import COLUMNS, NOISE
 from .ar_noise import ARNoise, fit_ar_noise
 from .prewhitening import Prewhitened, prewhiten
 from .rows import JointRows
@@ -190,7 +190,9 @@ def _solve(
 ) -> Fit:
     """Solve the normal equations with iterative refinement: the ridge and rounding bias one step."""
     gram = _gram(joints, size, prior)
-    scale = np.sqrt(np.where(np.diag(gram) > 0.0, np.diag(gram), 1.0))
+    shown = np.diag(gram) > COLUMNS.least_size**2  # where joints stand, a column may hold rounding alone
+    gram *= np.outer(shown, shown)
+    scale = np.sqrt(np.where(shown, np.diag(gram), 1.0))
     scaled = gram / np.outer(scale, scale) + RIDGE * np.eye(len(gram))
     factor, _ = cho_factor(scaled, lower=True)
     values = np.zeros(len(gram))
@@ -201,7 +203,7 @@ def _solve(
             slope[part.acting] += part.columns.T @ rest
         if prior is not None:
             slope += prior.slope(values)
-        step = _solve_scaled(factor, scale, slope)
+        step = _solve_scaled(factor, scale, slope * shown)
         if float(slope @ step) < EXACT:
             break
         values = values + step

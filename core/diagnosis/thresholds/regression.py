@@ -34,6 +34,9 @@ class Columns:
 
     least_clear: float = 1e-6
     """Share of a column's square that the others leave below which it is no evidence. Set by hand."""
+    least_size: float = 1e-6
+    """Norm of a white column below which it is rounding errors: a million units of its parameter would not
+    change the torque by a standard deviation of the noise. Set by hand."""
 
 
 NOISE, COLUMNS = Noise(), Columns()

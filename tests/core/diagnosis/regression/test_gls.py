@@ -63,6 +63,16 @@ def test_what_a_model_has_at_rest_does_not_change_how_likely_it_is():
     assert resting.log_likelihood == pytest.approx(plain.log_likelihood, abs=1.0)
 
 
+def test_a_column_of_rounding_has_no_coefficient(equations):
+    """On the one joint that moves, another joint's parameter may be 1e-17 of what it is on its own."""
+    rounding = {0: 1e-17 * smooth(np.random.default_rng(9), equations.count, 1)}
+    found, plain = (
+        fit(joints, NOISE, rounds=0) for joints in (equations.with_columns(rounding), equations.joints)
+    )
+    assert found.values[-1] == 0.0
+    np.testing.assert_allclose(found.values[:-1], plain.values, rtol=CLOSE)
+
+
 def test_a_candidate_fitted_on_top_is_the_dense_fit_with_its_column(equations):
     column = {1: smooth(np.random.default_rng(9), equations.count, 2)}
     found = fit(equations.with_columns(column), NOISE, rounds=0)
