@@ -10,10 +10,8 @@ from ..diagnosis.result import Diagnosis, Finding
 from ..robot.inertia import from_mass_properties, mass_properties, transform_body
 from ..robot.model import NamedFrame, RobotModel
 from .controller_loads import CONTROLLERS, Load
+from .setup_check import POOR_PERCENT
 
-INERTIA_KNOWN = 0.5
-"""Share of the trace of the inertia that its deviation may have. Set by hand: what is known worse is noise,
-and a controller is better off with a point mass."""
 FLANGES = ("tool0", "flange", "tool_flange", "ee_link")
 """Names of the frame of the controller, best first. ROS-Industrial calls `tool0` the all-zero tool frame of
 the controller. A `flange` of that convention has x, not z, pointing outwards, and stands beside a `tool0`."""
@@ -43,7 +41,7 @@ def framed_payload(
     mass, centre, inertia = mass_properties(np.copysign(1.0, body[9]) * body)
     trace = np.array([1.0, 0, 0, 1.0, 0, 1.0, 0, 0, 0, 0])
     deviation = float(np.sqrt(max(trace @ covariance @ trace, 0.0)))
-    known = deviation < INERTIA_KNOWN * float(np.trace(inertia))
+    known = 100.0 * deviation < POOR_PERCENT * float(np.trace(inertia))  # else a point mass serves better
     own = from_mass_properties(mass, centre, inertia if known else np.zeros((3, 3)))
     linked = NamedFrame(f"link {link} of the description", link, np.eye(3), np.zeros(3))
     named = [frame for frame in robot.frames if frame.link == link]
