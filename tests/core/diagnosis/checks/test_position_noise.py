@@ -14,6 +14,7 @@ from veritorque.core.diagnosis.checks.alternatives import Comparison, compare_al
 from veritorque.core.diagnosis.checks.findings import finding
 from veritorque.core.diagnosis.checks.instruments import Instruments
 from veritorque.core.diagnosis.checks.position_noise import NoiseTest, noise_test, noise_worth
+from veritorque.core.diagnosis.checks.structure_left import StructureLeft
 from veritorque.core.diagnosis.search.likelihood_ratio import likelihood_ratio
 from veritorque.core.diagnosis.search.residuals import residual
 from veritorque.core.diagnosis.search.state import SearchState
@@ -67,7 +68,8 @@ def _noisy(state: SearchState, drawn: np.ndarray) -> SearchState:
 
 
 def _confidence(state: SearchState, own: Comparison, after: np.ndarray) -> float:
-    return finding(state, own, after, 0.0, Instruments(state.fitter, state.chosen)).confidence
+    checks = Instruments(state.fitter, state.chosen), StructureLeft(state.fitter, state.chosen)
+    return finding(state, own, after, 0.0, checks).confidence
 
 
 @pytest.mark.parametrize("alike", [False, True])

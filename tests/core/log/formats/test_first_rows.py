@@ -36,3 +36,10 @@ def test_a_column_of_words_hides_no_other(tmp_path):
     lines = path.read_text().splitlines()
     path.write_text("\n".join(["t,ang1,trq1,mode", *(f"{line},auto" for line in lines[1:])]))
     assert check_log(path).suggestion["position"] == {"columns": ["ang1"], "unit": "rad"}
+
+
+def test_a_file_of_words_alone_is_refused_in_words(tmp_path):
+    path = tmp_path / "words.csv"
+    path.write_text("GET /healthz\nHost: localhost\n\n")
+    with pytest.raises(LogError):
+        read_log(path)
