@@ -70,12 +70,14 @@ def _diagnosis(found: Extension) -> dict[str, object]:
 
 
 def _gain(gain: JointGain) -> dict[str, object]:
+    """Tabulate what a joint gained; nothing is known of one without rows to judge by."""
+    known = gain.rms_before > 0.0
     return {
         "joint": gain.joint,
-        "rms_residual_before": gain.rms_before,
-        "rms_residual_after": gain.rms_after,
-        "improvement_percent": gain.improvement_percent,
-        "interval_95": gain.interval_95,
+        "rms_residual_before": gain.rms_before if known else None,
+        "rms_residual_after": gain.rms_after if known else None,
+        "improvement_percent": gain.improvement_percent if known else None,
+        "interval_95": gain.interval_95 if known else None,
         "held_out": True,
     }
 

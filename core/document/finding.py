@@ -1,5 +1,7 @@
 """Write a finding as rows of the result document: every number with its unit and how well it is known."""
 
+import numpy as np
+
 from ..diagnosis.causes.protocol import Quantity, Site
 from ..diagnosis.causes.registry import BY_ID
 from ..diagnosis.result import Alternative, Finding, Gain, NotIdentifiable
@@ -90,11 +92,16 @@ def _alternative(alternative: Alternative) -> dict[str, object]:
 
 
 def _gain(gain: Gain) -> dict[str, object]:
+    """Give the errors per joint; nothing is known of one without rows to judge by."""
+    known = gain.before > 0.0
+    before, after, percent = (
+        np.where(known, own, np.nan) for own in (gain.before, gain.after, gain.improvement_percent)
+    )
     return {
-        "rms_residual_before": gain.before,
-        "rms_residual_after": gain.after,
+        "rms_residual_before": before,
+        "rms_residual_after": after,
         "held_out": True,
-        "improvement_percent": gain.improvement_percent,
+        "improvement_percent": percent,
         "improvement_total_percent": gain.total_percent,
         "interval_95": gain.interval_95,
     }

@@ -130,7 +130,7 @@ def _scale(found: Identification) -> list[str]:
     sentence = (
         f"The identified bodies need {factor:.3g} times the torque of the described ones: the torque may be "
         "in another unit, in per cent or measured at the motor's side of a gear; or the described masses are "
-        "placeholders"
+        "placeholders, or leave out rotors behind gears"
     )
     return [sentence]
 

@@ -6,7 +6,9 @@ import pytest
 from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.errors import ExcitationError
-from veritorque.core.log.model import JointLog
+from veritorque.core.log.model import JointLog, whole_rows
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.report.page.page import compose_page
 from veritorque.core.signals.state import MotionState
 from veritorque.core.study import IdentifyRequest, diagnose, identify
 
@@ -57,3 +59,21 @@ def test_the_error_of_a_joint_that_stands_is_not_known_and_not_zero():
             known = {name for name, value in row.items() if value is not None}
             assert ("rms_residual" in known) == (row["joint"] == 2)
             assert known >= {"joint", "samples"}
+
+
+def test_a_joint_that_stands_gains_nothing_that_is_known_and_has_no_bar_in_the_report():
+    log = log_with_constant([0], speed=0.0)
+    rows = whole_rows(log)
+    spring = rows.torque + 8.0 * rows.position * [0.0, 1.0]
+    sprung = log_from_arrays("sprung", rows.time, rows.position, spring)
+    document = diagnose(IdentifyRequest(MODEL.robot, (sprung,)))
+    still, moving = document["diagnosis"]["gain"]
+    assert still == {"joint": 1, "held_out": True} | dict.fromkeys(still.keys() - {"joint", "held_out"})
+    assert moving["improvement_percent"] > 0.0
+    (finding,) = document["diagnosis"]["findings"]
+    assert [value is None for value in finding["gain"]["improvement_percent"]] == [True, False]
+    page = compose_page(document)
+    assert "joint 2:" in page
+    assert "joint 1:" not in page
+    page = compose_page(identify(IdentifyRequest(MODEL.robot, (log,))))
+    assert "on every joint that moves)" in page

@@ -16,7 +16,8 @@ from ..thresholds import LENGTH
 from ..trial import Trials
 
 ROW, PLACE = ("d", "r"), ("x", "y", "z")
-"""Lengths of a row of a table, and of a placement in the frame of the link before."""
+"""Lengths of a row of a table, and of a placement in the frame of the link before. The z of this frame is the
+axis of the link's joint, also where a URDF writes another axis, and fixed joints between are part of it."""
 _GENERAL = 0.0731
 """A change of lengths, m per number of the joint, after which none is zero."""
 
@@ -50,8 +51,8 @@ def _words(link: Link, entry: str, change: float) -> tuple[str, str]:
     if link.row is not None:
         statement = f"the length {entry} of joint {joint} is {after:.3g} m, not {before:.3g} m"
         return statement, f"describe joint {joint} with {entry} = {after:.4g} m"
-    where = f"along {entry} of the frame before it"
-    statement = f"joint {joint} lies {after:.3g} m {where}, not {before:.3g} m"
+    where = f"along {entry} of the frame of link {link.antecedent}, whose z is the axis of its joint"
+    statement = f"joint {joint} lies {after:.3g} m, not {before:.3g} m, {where}"
     return statement, f"describe joint {joint} with a translation of {after:.4g} m {where}"
 
 

@@ -33,6 +33,9 @@ VALUE_WORDS = frozenset(("value", "values", "val", "data"))
 FEWEST_TURNS = 0.9
 """At least this share of the rows name the joint that was named as many rows before as there are joints, and
 another one than the row before."""
+MOST_IN_TURN = 0.5
+"""The mean square by which some value changes from turn to turn is less than this share of that from row to
+row. Between samples of one signal it is larger."""
 FEWEST_REPEATS = 0.5
 """At least this share of the stamps repeat the row before in a table of two joints or more."""
 MOST_KEYS = 64
@@ -103,23 +106,32 @@ def _long(table: Table) -> _Long | None:
         return None
     stamps = np.hstack(list(table.batches([stamp])))[0]
     named = np.array(words)
-    if not _belongs_to_joints(stamps, named, len(keys), values):
+    if not _are_together(stamps, len(keys)) and not _take_turns(table, named, len(keys), values):
         return None  # a row per instant whose key says something else
     return _Long(key, keys, [np.flatnonzero(named == word) for word in keys], stamp, values)
 
 
-def _belongs_to_joints(stamps: np.ndarray, named: np.ndarray, keys: int, values: tuple[str, ...]) -> bool:
-    """Tell whether the rows of an instant are one of each joint's, or each joint has its turn."""
-    together = np.mean(np.diff(stamps) == 0.0) >= FEWEST_REPEATS * (1.0 - 1.0 / keys)
-    return bool(together) or _take_turns(named, keys, values)
+def _are_together(stamps: np.ndarray, keys: int) -> bool:
+    """Tell whether the rows of an instant are one of each joint's."""
+    return bool(np.mean(np.diff(stamps) == 0.0) >= FEWEST_REPEATS * (1.0 - 1.0 / keys))
 
 
-def _take_turns(named: np.ndarray, keys: int, values: tuple[str, ...]) -> bool:
-    """Tell whether joints that are asked one after the other each have a row, and columns without numbers."""
+def _take_turns(table: Table, named: np.ndarray, keys: int, values: tuple[str, ...]) -> bool:
+    """Tell whether joints that are asked one after the other each have a row, and columns without numbers.
+
+    A counter that starts again has turns, too; the values beside it go on from row to row.
+    """
     if len(named) <= keys or any(name[-1:].isdigit() for name in values):
         return False
     turns = np.mean(named[keys:] == named[:-keys]), np.mean(named[1:] != named[:-1])
-    return bool(min(turns) >= FEWEST_TURNS)
+    if min(turns) < FEWEST_TURNS:
+        return False
+    try:
+        block = np.hstack(list(table.batches(values)))
+    except LogError:
+        return False
+    in_turn, by_row = (np.nansum((block[:, by:] - block[:, :-by]) ** 2, axis=1) for by in (keys, 1))
+    return bool(np.any(in_turn < MOST_IN_TURN * by_row))
 
 
 def _is_stamp(name: str) -> bool:

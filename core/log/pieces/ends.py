@@ -53,8 +53,7 @@ def bad_head(rows: LogRows) -> BadEnd | None:
     """
     if len(rows.time) < FEWEST_ROWS:
         return None
-    effort = next(getattr(rows, name) for name in EFFORTS if getattr(rows, name) is not None)
-    start, found = 0, None
+    effort, start, found = _effort(rows), 0, None
     while len(rows.time) - start >= FEWEST_ROWS:
         time, position, torque = rows.time[start:], rows.position[start:], effort[start:]
         new = (
@@ -81,8 +80,13 @@ def is_mostly_held(rows: LogRows) -> bool:
     >>> is_mostly_held(LogRows(np.arange(9.0), np.zeros((9, 1)), np.arange(9.0)[:, None]))
     True
     """
-    channels = (rows.time[:, None], rows.position, rows.torque, rows.current)
-    return any(_held_rows(values) > len(values) // 2 for values in channels if values is not None)
+    channels = (rows.time[:, None], rows.position, _effort(rows))
+    return any(_held_rows(values) > len(values) // 2 for values in channels)
+
+
+def _effort(rows: LogRows) -> JointSeries:
+    """Give the effort that is used, by which an end is judged."""
+    return next(getattr(rows, name) for name in EFFORTS if getattr(rows, name) is not None)
 
 
 def _other_clock(time: Samples) -> BadEnd | None:
@@ -143,16 +147,18 @@ def _idle_effort(effort: JointSeries) -> BadEnd | None:
 def _copies(position: JointSeries, effort: JointSeries) -> BadEnd | None:
     """Find copies of one row, from which the motion goes on in an instant: nothing was measured there.
 
-    A joint that truly stands starts from rest, and its torque carries noise.
+    A joint that truly stands starts from rest: its second differences stay as large while it speeds up, and
+    its torque carries noise.
     """
     held = min(_held_rows(position), _held_rows(effort))
-    if not 1 < held < len(position) - 2:
+    if not 1 < held < len(position) - 3:
         return None
     bends, usual, least = _bends(position, smallest=0.0)
-    bend = bends[held - 2]
-    if not np.any(bend > least):
+    bend, onward = bends[held - 2], np.max(bends[held - 1 : held + 1], axis=0)
+    jumps = (bend > least) & (bend > ISOLATED * onward)
+    if not jumps.any():
         return None
-    joint = int(np.argmax(np.where(bend > least, bend / usual, 0.0)))
+    joint = int(np.argmax(np.where(jumps, bend / usual, 0.0)))
     why = (
         f"they are copies of one row, and joint {joint + 1} moves on from it in an instant, with a second "
         f"difference {bend[joint] / usual[joint]:.3g} times what the motion's stay below"

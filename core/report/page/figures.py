@@ -75,25 +75,23 @@ def _panel(frame: Frame, shown: Document, title: str, unit: str, drawn: Sequence
     return picture(f"{title}, over the {name}", text, (_WIDE, _HIGH), *parts)
 
 
-def joint_bars(title: str, before: Sequence[float], after: Sequence[float], label: str) -> Markup:
+def joint_bars(title: str, errors: Sequence[tuple[int, float, float]], label: str) -> Markup:
     """Draw one percentage per joint before and after as bars."""
-    height = _ROW * len(before) + 4.0
-    scale = (_BARS_WIDE - 160.0) / max([*before, *after, 1e-9])
-    rows = [
-        _bar_pair(index, 4.0 + _ROW * index, (old * scale, new * scale), (old, new))
-        for index, (old, new) in enumerate(zip(before, after, strict=True))
-    ]
+    height = _ROW * len(errors) + 4.0
+    scale = (_BARS_WIDE - 160.0) / max([*(max(own[1:]) for own in errors), 1e-9])
+    rows = [_bar_pair(own, 4.0 + _ROW * index, scale) for index, own in enumerate(errors)]
     text = "; ".join(
-        f"joint {index + 1}: {percent(old)} before, {percent(new)} after"
-        for index, (old, new) in enumerate(zip(before, after, strict=True))
+        f"joint {joint}: {percent(old)} before, {percent(new)} after" for joint, old, new in errors
     )
     drawn = picture(title, text, (_BARS_WIDE, height), *rows)
     return element("figure", element("figcaption", label), drawn, class_="bars")
 
 
-def _bar_pair(index: int, top: float, widths: tuple[float, float], values: tuple[float, float]) -> Markup:
-    parts = [element("text", f"joint {index + 1}", x=0, y=top + 16.0)]
-    for shift, width, value, kind in zip((0.0, 12.0), widths, values, ("before", "after"), strict=True):
+def _bar_pair(error: tuple[int, float, float], top: float, scale: float) -> Markup:
+    joint, *values = error
+    parts = [element("text", f"joint {joint}", x=0, y=top + 16.0)]
+    for shift, value, kind in zip((0.0, 12.0), values, ("before", "after"), strict=True):
+        width = value * scale
         bar = element(
             "rect", x=60, y=top + shift, width=round(max(width, 0.5), 1), height=10, class_=f"bar {kind}"
         )

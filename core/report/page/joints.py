@@ -86,10 +86,10 @@ def _titles_on(document: Document, joint: int) -> str:
 
 
 def _bars(old: dict[int, Document], new: dict[int, Document]) -> Markup:
-    before, after = (
-        [float(row["nrmse_of_rms_percent"] or 0.0) for row in side.values()] for side in (old, new)
-    )
-    return joint_bars("Error per joint", before, after, f"{_CAPTION}, % of RMS torque")
+    """Draw the joints of which there is an error: one that never moves has none."""
+    errors = [(joint, *(side[joint]["nrmse_of_rms_percent"] for side in (old, new))) for joint in old]
+    known = [own for own in errors if None not in own]
+    return joint_bars("Error per joint", known, f"{_CAPTION}, % of RMS torque")
 
 
 def _motion(document: Document) -> Table | None:

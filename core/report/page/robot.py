@@ -36,10 +36,14 @@ def headline(document: Document) -> str:
 def joints_predicted(document: Document) -> dict[str, list[int]]:
     """List the joints by the word for their error: on held-out data, where there are any."""
     listed: dict[str, list[int]] = {}
-    for row in document.get("validation") or document.get("fit") or []:
+    for row in _judged(document):
         if row.get("quality"):
             listed.setdefault(row["quality"], []).append(int(row["joint"]))
     return listed
+
+
+def _judged(document: Document) -> list[Document]:
+    return document.get("validation") or document.get("fit") or []
 
 
 def _in_words(document: Document) -> str:
@@ -47,7 +51,8 @@ def _in_words(document: Document) -> str:
     listed = joints_predicted(document)
     words = [word for word, _ in reversed(QUALITIES) if word in listed]
     if len(words) < 2:
-        return f" ({words[0]} on every joint)" if words else ""
+        every = "joint" if all(row.get("quality") for row in _judged(document)) else "joint that moves"
+        return f" ({words[0]} on every {every})" if words else ""
     return f" ({series([f'{word} on {joints(listed[word])}' for word in words])})"
 
 

@@ -196,6 +196,7 @@ def test_a_length_is_named_where_the_description_gives_placements_as_a_urdf_does
     assert [row["conflict"] for row in document["conflicts"]] == ["link_length"] * (wrong != 0.0)
     for row in document["conflicts"]:
         assert row["joints"] == [3]
+        assert "along x of the frame of link 2, whose z is the axis of its joint" in row["statement"]
         described = row["correction"]["robot"]["joints"][2]["translation"]
         np.testing.assert_allclose(described, robot.links[2].translation, atol=0.01)
     assert mean_percent(document) < 1.05 * sound

@@ -95,3 +95,13 @@ def test_a_column_called_id_does_not_make_a_table_long(tmp_path, often):
     ]
     path.write_text("\n".join([header, *rows]))
     assert read_log(path).ignored_columns == ("id",)
+
+
+def test_a_counter_that_starts_again_does_not_make_a_table_long(tmp_path):
+    """Joints that are asked in turn have an id that starts again, too, but each its own values."""
+    path = tmp_path / "log.csv"
+    rows = zip(COLUMNS["time"], COLUMNS["q_1"], COLUMNS["tau_1"], strict=True)
+    lines = [f"{time:.6f},{number % 16},{q:.9f},{tau:.9f}" for number, (time, q, tau) in enumerate(rows)]
+    path.write_text("\n".join(["time,id,q,tau", *lines]))
+    log = read_log(path)
+    assert (log.joints, log.samples) == (1, len(COLUMNS["time"]))

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from tests.core.log.writers import swing
-from veritorque.core.log.model import whole_rows
+from veritorque.core.log.model import LogRows, whole_rows
+from veritorque.core.log.pieces.ends import is_mostly_held
 from veritorque.core.log.reader import log_from_arrays
 
 
@@ -103,6 +104,17 @@ def test_a_log_that_starts_at_rest_and_moves_off_keeps_all_its_rows(rate_hz, ste
     assert log.samples == len(time)
 
 
+@pytest.mark.parametrize("rate_hz", [50.0, 100.0])
+def test_an_axis_that_hardly_ever_accelerates_keeps_the_rows_at_which_it_stood(rate_hz):
+    """At constant speed all but a hundredth of the rows have no second difference at all."""
+    time = np.arange(int(40.0 * rate_hz)) / rate_hz
+    speed = np.clip(np.minimum(time - 10.0, 35.001 - time) / 0.15, 0.0, 0.6)
+    position = (np.cumsum(speed) / rate_hz)[:, None]
+    torque = 3.0 * np.sign(speed)[:, None] + 9.0 * np.cos(position)
+    log = log_from_arrays("constant speed", time, position, torque)
+    assert not [defect for defect in log.defects if defect.kind == "bad_end"]
+
+
 @pytest.mark.parametrize("rows", [2, 19, 700, 6000])
 @pytest.mark.parametrize("behind", [False, True])
 def test_copies_of_the_row_that_the_motion_goes_on_from_are_a_bad_end(rows, behind):
@@ -113,6 +125,14 @@ def test_copies_of_the_row_that_the_motion_goes_on_from_are_a_bad_end(rows, behi
     log = log_from_arrays("held", time, position, torque)
     (defect,) = log.defects
     assert (defect.kind, defect.count, log.samples) == ("bad_end", rows, len(time) - rows)
+
+
+def test_an_idle_current_beside_torque_does_not_lengthen_what_is_judged():
+    """The end of a log is read further while it is held, the whole file if need be: by what is used alone."""
+    time, position, torque = healthy()
+    idle = LogRows(time, position, torque, current=np.zeros_like(torque))
+    assert not is_mostly_held(idle)
+    assert is_mostly_held(LogRows(time, position, current=np.zeros_like(torque)))
 
 
 def test_a_spike_near_an_end_is_a_spike_and_no_bad_end():
