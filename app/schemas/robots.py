@@ -167,8 +167,9 @@ class BaseParameters(Open):
     rank: Annotated[
         dict[str, float],
         about(
-            "the share of a column, outside the columns before it, below which it counts as dependent "
-            "(`relative_tolerance`), and the least share of one that was kept (`least_share_kept`)"
+            "the share below which a column counts as dependent (`relative_tolerance`): what lies outside "
+            "the columns before it, over the column and their nearest combination; and the least share of "
+            "one that was kept (`least_share_kept`)"
         ),
     ]
     base_parameters: list[dict[str, JsonValue]]
