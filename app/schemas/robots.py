@@ -168,8 +168,8 @@ class BaseParameters(Open):
         dict[str, float],
         about(
             "the share below which a column counts as dependent (`relative_tolerance`): what lies outside "
-            "the columns before it, over the column and their nearest combination; and the least share of one "
-            "that was kept (`least_share_kept`)"
+            "the columns before it, over the column and their nearest combination; and the least share of "
+            "one that was kept (`least_share_kept`)"
         ),
     ]
     base_parameters: list[dict[str, JsonValue]]

@@ -122,15 +122,15 @@ def _chosen(paths: list[Path], best: int, margins: Margins) -> Path:
 def _alike(chosen: Path, undecided: list[Path], paths: list[Path]) -> tuple[Hypothesis, ...]:
     """Give the first steps of the undecided paths, and those as good as the chosen one that none follows.
 
-    Of one kind and joint the likeliest is given, and none of the chosen one's.
+    Of one kind and joint the first is given, and none of the chosen one's.
     """
     followed = {path[0].hypothesis for path in paths}
     beside = (own for own in chosen[0].equivalents if own not in followed)
     listed = (*(path[0].hypothesis for path in undecided), *beside)
-    likeliest = {chosen[0].hypothesis.key: chosen[0].hypothesis}
+    first = {chosen[0].hypothesis.key: chosen[0].hypothesis}
     for own in listed:
-        likeliest.setdefault(own.key, own)
-    return tuple(likeliest.values())[1:]
+        first.setdefault(own.key, own)
+    return tuple(first.values())[1:]
 
 
 def _corrections(path: Path) -> set[str]:
