@@ -7,10 +7,10 @@ from ..diagnosis.causes.protocol import FittedCause
 from ..diagnosis.causes.shared.bodies import body_of
 from ..diagnosis.causes.shared.own_joint import end_links, links_by_joint
 from ..diagnosis.result import Diagnosis, Finding
+from ..precision.inference import POOR_PERCENT
 from ..robot.inertia import from_mass_properties, mass_properties, transform_body
 from ..robot.model import NamedFrame, RobotModel
 from .controller_loads import CONTROLLERS, Load
-from .setup_check import POOR_PERCENT
 
 FLANGES = ("tool0", "flange", "tool_flange", "ee_link")
 """Names of the frame of the controller, best first. ROS-Industrial calls `tool0` the all-zero tool frame of

@@ -9,14 +9,11 @@ from ..diagnosis.causes.protocol import Site
 from ..diagnosis.causes.registry import BY_ID
 from ..diagnosis.checks.separability import Pair, Separability, Shown, Smallest
 from ..identification.result import Identification
-from ..precision.inference import relative_deviation_percent
+from ..precision.inference import POOR_PERCENT, relative_deviation_percent
 from ..validation.quality import quality
 from .identification import grouping_row, identification_document
 from .numbers import plain
 
-POOR_PERCENT = 30.0
-"""Relative deviation above which a parameter counts as poorly known. Set by hand, as the page of a result
-marks it."""
 _TAKEN_OVER = (
     "schema_version",
     "robot",

@@ -21,6 +21,9 @@ _RESOLVED = 1e-12
 """Eigenvalue of W'W over the largest, columns of unit size, below which rounding may be a part of it."""
 _ROUNDS = 3
 INTERVAL_95 = 1.959964
+POOR_PERCENT = 30.0
+"""Relative deviation, %, above which a number counts as poorly known. Set by hand, as the page of a result
+marks it."""
 
 
 @dataclass(frozen=True, eq=False)

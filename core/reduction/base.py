@@ -22,8 +22,7 @@ RANK_TOLERANCE = 1e-10
 """A column is dependent when what lies outside the columns before it is less than this share of the column
 and of the combination of those that stands for it. Where these are hardly independent themselves, the
 combination is large, and so is its rounding (Higham, Accuracy and Stability of Numerical Algorithms, 2002,
-ch. 20).
-Rounding leaves about 1e-13; twists off by a tenth of a milliradian leave about 1e-4."""
+ch. 20). Rounding leaves about 1e-13; twists off by a tenth of a milliradian leave about 1e-4."""
 _NOTHING = 1e-12
 """A column is zero when it is smaller than this share of the largest of its unit: it is rounding."""
 _SEED = 20221

@@ -178,13 +178,13 @@ class StructureTest:
     """What that structure is a function of."""
     share: float
     """Structure on all joints that have too much of it, over what the finding explains on all."""
-    log_p: float
-    """Log of the finding's p-value by the other joints."""
+    log10_p: float
+    """Decimal logarithm of the finding's p-value by the other joints."""
 
     @property
     def doubts(self) -> bool:
         """Tell whether the other joints do not show the finding, or much more is left than that."""
-        return _is_too_much(self.share, self.log_p * float(np.log10(np.e)))
+        return _is_too_much(self.share, self.log10_p)
 
     @property
     def evidence(self) -> tuple[Evidence, ...]:
@@ -202,7 +202,7 @@ class StructureTest:
                 f"{100.0 * STRUCTURE_LEFT.share:.0f} % of what the finding does; above "
                 f"{np.log10(STRUCTURE_LEFT.level):.0f} it is doubtful",
                 LOG_P,
-                self.log_p * float(np.log10(np.e)),
+                self.log10_p,
             ),
         )
 
@@ -231,8 +231,8 @@ def structure_test(
     whole_gain = sum(gained.values())
     clean = whole_gain - sum(gained[joint] for joint in spoilt)
     share = sum(left.on(joint).statistic for joint in spoilt) / whole_gain
-    log_p = log_p_of(fitter, whole, index, min(clean, statistic))
-    return StructureTest(worst + 1, left.on(worst).of, share, log_p)
+    log10_p = log_p_of(fitter, whole, index, min(clean, statistic)) * float(np.log10(np.e))
+    return StructureTest(worst + 1, left.on(worst).of, share, log10_p)
 
 
 def _gained(left: StructureLeft, without: Hypothesis, member: Candidate) -> dict[int, float]:
