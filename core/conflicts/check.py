@@ -30,7 +30,8 @@ class Conflicts:
     """Whether anything was in doubt, so that corrections were searched."""
     promising: float = 0.0
     """By how much the mean logarithm of the joints' errors falls under the best other set-up, where too few
-    rows judge it to call it a conflict; 0 where that is less than a conflict has to gain."""
+    rows judge it to call it a conflict, or forces that follow positions predict better; 0 where that is less
+    than a conflict has to gain."""
 
     @property
     def is_open(self) -> bool:

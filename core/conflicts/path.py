@@ -1,6 +1,6 @@
 """Hold conflicts that were found one after the other, and compare what they lead to."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -28,6 +28,12 @@ Path = tuple[FoundConflict, ...]
 def cost(path: Path) -> float:
     """Give the last error, to which each correction that is not expected adds what one has to gain."""
     return path[-1].after.score + DECISION.least_gain * sum(not step.hypothesis.expected for step in path)
+
+
+def unsure(path: Path) -> Path:
+    """Limit the confidence of all corrections."""
+    most = DECISION.most_where_unsure
+    return tuple(replace(step, confidence=min(step.confidence, most)) for step in path)
 
 
 @dataclass(frozen=True)

@@ -61,7 +61,7 @@ def _with_gravity(path: Path, described: Setup, mounting: Hypothesis | None, tri
                 continue
             own, gravity, mounting = mounting, mounting.setup.robot.gravity, None  # later ones are part of it
         steps.append((step, replace(own, setup=step.hypothesis.setup.with_gravity(gravity))))
-    judged = _judged(steps, trials)
+    judged = judged_again(steps, trials)
     return path if judged is None else judged
 
 
@@ -83,7 +83,7 @@ def _with_factors_refined(path: Path, channel: int, described: Setup, trials: Tr
             own = replace(own, setup=with_factor(own.setup, _joint(own.setup, channel), change))
         if place == first or factors[place] == 1.0:
             steps.append((step, own))
-    judged = _judged(steps, trials)
+    judged = judged_again(steps, trials)
     return path if judged is None else min(path, judged, key=cost)
 
 
@@ -100,7 +100,7 @@ def _joint(setup: Setup, channel: int) -> int:
     return setup.assignment.torque.source.index(channel)
 
 
-def _judged(steps: list[tuple[FoundConflict, Hypothesis]], trials: Trials) -> Path | None:
+def judged_again(steps: list[tuple[FoundConflict, Hypothesis]], trials: Trials) -> Path | None:
     """Fit changed steps again, one after the other; None where one cannot be fitted."""
     out: list[FoundConflict] = []
     for step, own in steps:

@@ -12,7 +12,8 @@ import numpy as np
 from .conflict import Hypothesis
 from .kinds.gear_ratio import GearRatio
 from .kinds.unit import Unit
-from .path import FoundConflict, Margins, Path, cost
+from .path import FoundConflict, Margins, Path, cost, unsure
+from .position_forces import only_needed
 from .refinement import refined
 from .setup import Setup
 from .steps import Steps, first_steps
@@ -24,15 +25,14 @@ def find_conflicts(setup: Setup, trials: Trials) -> Path:
     """Search for corrections of a set-up, one after the other; the last one's set-up holds them all."""
     present = trials.outcome(trials.equations(setup))
     path = () if present is None else _Search(trials).path(setup, present, TRIAL.most_corrections)
-    return _as_sure_as_they_fit(refined(path, setup, trials))
+    return _as_sure_as_they_fit(only_needed(refined(path, setup, trials), setup, trials))
 
 
 def _as_sure_as_they_fit(path: Path) -> Path:
     """Limit the confidence of corrections after which the model still fails on a joint."""
     if not path or float(np.max(path[-1].after.errors)) <= DECISION.failed:
         return path
-    most = DECISION.most_where_failed
-    return tuple(replace(step, confidence=min(step.confidence, most)) for step in path)
+    return unsure(path)
 
 
 @dataclass(frozen=True, eq=False)

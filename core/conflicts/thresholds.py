@@ -49,8 +49,9 @@ class Decision:
     failed: float = 0.5
     """Share of a joint's RMS torque. Where the last correction leaves more, none is more likely than not.
     Set by hand, as for the findings of a diagnosis."""
-    most_where_failed: float = 0.5
-    """Confidence of a correction there, at most. Set by hand."""
+    most_where_unsure: float = 0.5
+    """Confidence of a correction there, at most, and where forces that follow positions predict better. Set
+    by hand."""
     least_gain: float = 0.15
     """Natural logarithm by which the joints' mean error has to fall: a seventh. Set by hand: on the four
     measured robots as described, no other set-up reaches 0.11."""
@@ -123,5 +124,18 @@ class Unit:
     """Radians that a joint has to move at least in the unit that is tried: what hardly moves fits well."""
 
 
+@dataclass(frozen=True)
+class PositionForces:
+    """Describe forces that follow positions, as the rival of a correction. All are set by hand."""
+
+    own: int = 5
+    """Half waves over the range of a joint, as a function of its own position."""
+    neighbour: int = 3
+    """The same as a function of a neighbour's."""
+    least_span: float = 1e-3
+    """Radians or metres: a joint that moves less has no such force."""
+
+
 DOUBT, TRIAL, DECISION, MOUNTING = Doubt(), Trial(), Decision(), Mounting()
 TIME_BASE, LENGTH, RATIO, UNIT = TimeBase(), Length(), Ratio(), Unit()
+POSITION_FORCES = PositionForces()

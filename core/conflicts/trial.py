@@ -13,6 +13,7 @@ import numpy as np
 
 from ..arrays import JointMarks, JointVector, Series
 from ..dynamics.model import standard_model
+from ..dynamics.term import Term
 from ..dynamics.terms.coulomb import Coulomb
 from ..errors import SolverError
 from ..estimate.constraints import Bounds, default_prior
@@ -71,6 +72,8 @@ class Trials:
 
     samples: Samples
     terms: tuple[str, ...] | None = None
+    beside: tuple[Term, ...] = ()
+    """Terms beside those of the standard model."""
     _bases: dict[tuple[Link, ...], _Grouped] = field(default_factory=dict)
     _regressors: dict[tuple[object, ...], Regressor] = field(default_factory=dict)
     _families: dict[tuple[object, ...], RegressorFamily] = field(default_factory=dict)
@@ -187,7 +190,8 @@ class Trials:
         """Group the parameters for any direction of gravity, once per table."""
         if robot.links not in self._bases:
             general = replace(robot, gravity=9.81 * _GENERAL / np.linalg.norm(_GENERAL))
-            base = base_model(standard_model(general, self.terms))
+            model = standard_model(general, self.terms)
+            base = base_model(replace(model, terms=(*model.terms, *self.beside)))
             self._bases[robot.links] = _Grouped(base, ColumnPlan(base.model, base.kept))
         return self._bases[robot.links]
 

@@ -30,8 +30,8 @@ def with_reservations(
         Whether a torque was multiplied by an estimated factor. Gains are relative: whichever joint one is
         found on, it may be the estimate's error.
     promising
-        By how much the mean logarithm of the joints' errors would fall under another set-up that too few rows
-        judge. Where all findings gain less, it is the better explanation.
+        By how much the mean logarithm of the joints' errors would fall under another set-up that is not clear
+        enough to be called wrong. Where all findings gain less, it is the better explanation.
     """
     failed = open_conflict or any(_joints_not_fitted(found))
     findings = tuple(
@@ -79,7 +79,7 @@ def beside_another_setup(findings: Sequence[Finding], promising: float) -> tuple
     gained = sum(map(_mean_log_gain, findings))
     evidence = Evidence(
         "By how much another set-up of robot and log would lower the mean logarithm of the joints' errors: "
-        f"more than all findings do ({gained:.2g}); the log is too short to decide for it",
+        f"more than all findings do ({gained:.2g}); the log does not decide for it",
         "another set-up",
         promising,
     )

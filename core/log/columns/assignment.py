@@ -4,7 +4,7 @@ A mapping file says it for a file's columns. Here it is a value that can be chan
 through an assignment without being copied.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -33,6 +33,17 @@ class Channels:
     def as_measured(cls, joints: int) -> "Channels":
         """Take every channel as it was measured."""
         return cls(tuple(range(joints)), (1.0,) * joints, (0.0,) * joints)
+
+    @classmethod
+    def picked(cls, several: Sequence["Channels"]) -> "Channels":
+        """Take the first joint as the first of several says, the second as the second, and so on."""
+        rows = [own.of_joint(joint) for joint, own in enumerate(several)]
+        source, factor, offset = zip(*rows, strict=True)
+        return cls(source, factor, offset)
+
+    def of_joint(self, joint: int) -> tuple[int, float, float]:
+        """Give source, factor and offset of a joint (from 0)."""
+        return self.source[joint], self.factor[joint], self.offset[joint]
 
     def exchanged(self, first: int, second: int) -> "Channels":
         """Exchange the channels of two joints, with their factors and offsets."""
