@@ -50,8 +50,8 @@ class Decision:
     """Share of a joint's RMS torque. Where the last correction leaves more, none is more likely than not.
     Set by hand, as for the findings of a diagnosis."""
     most_where_unsure: float = 0.5
-    """Confidence of a correction there, at most, and where forces that follow positions predict better. Set
-    by hand."""
+    """Confidence of a correction there, at most, and where forces that follow positions predict as
+    well. Set by hand."""
     least_gain: float = 0.15
     """Natural logarithm by which the joints' mean error has to fall: a seventh. Set by hand: on the four
     measured robots as described, no other set-up reaches 0.11."""

@@ -40,10 +40,12 @@ def with_reservations(
     )
     findings = beside_another_setup(findings, promising)
     claims_nothing = found.verdict == "nothing_found" and (failed or doubted)
+    explains = any(finding.confidence > CONFIDENCE.doubtful for finding in findings)
+    claims_too_much = found.verdict == "causes_found" and not explains
     return replace(
         found,
         findings=findings,
-        verdict="unexplained" if claims_nothing else found.verdict,
+        verdict="unexplained" if claims_nothing or claims_too_much else found.verdict,
         # What cannot be identified is known at a good fit only, and the model does not fit.
         not_identifiable=() if failed else found.not_identifiable,
     )

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...arrays import Vector
 from ...dynamics.term import Term
-from ...dynamics.terms.unnamed_pattern import FACTORS, PATTERNS, Numbers, Trace
+from ...dynamics.terms.unnamed_pattern import FACTORS, PATTERNS, GainDrift, Numbers, Trace
 from ..causes.protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting
 from ..causes.shared.own_joint import OwnJointCause
 from ..dataset.dataset import Dataset
@@ -32,7 +32,9 @@ LOOPS = tuple(float(rate) for rate in np.geomspace(1.0, 20.0, 12))
 """Bandwidths of a controller's loop, Hz."""
 SWITCHES = 16
 """Parts of a log between which friction may switch; refined to the row."""
-_NAMES = tuple(PATTERNS)
+DRIFT = "drift"
+"""A gain of the torque channel that changes with time, whose column is of the model's torque."""
+_NAMES = (*PATTERNS, DRIFT)
 
 
 @dataclass(frozen=True)
@@ -48,7 +50,8 @@ class UnnamedPatternCause(OwnJointCause):
     def grid(self, at: Setting) -> Sequence[Scalars]:
         """List all patterns with their numbers."""
         patterns = _patterns(at.dataset.joints, at.joint, _seconds(at.dataset))
-        return [_scalars(name, numbers) for name, numbers in (*patterns, *_switches(at.dataset))]
+        drift = (DRIFT, _span(at.dataset))
+        return [_scalars(name, numbers) for name, numbers in (*patterns, *_switches(at.dataset), drift)]
 
     def loops(self, at: Setting) -> list[Scalars]:
         """List the loops in which the joint may lag behind the logged positions: what a reference leaves."""
@@ -79,7 +82,10 @@ class UnnamedPatternCause(OwnJointCause):
 
     def term(self, at: Setting) -> Term:
         """Give the columns."""
-        return Trace(at.joint, *_read(at.scalars))
+        name, numbers = _read(at.scalars)
+        if name == DRIFT:
+            return GainDrift(at.joint, at.operating_point, *numbers)
+        return Trace(at.joint, name, numbers)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report no numbers: they have no physical meaning."""
@@ -127,6 +133,12 @@ def _loops(at: Setting) -> list[tuple[str, Numbers]]:
     return [("loop", (rate, braked, fed)) for rate in LOOPS for fed in (0.0, 1.0)]
 
 
+def _span(dataset: Dataset) -> Numbers:
+    """Give the middle of the time, and half of its range, s."""
+    begin, end = float(dataset.time.min()), float(dataset.time.max())
+    return 0.5 * (begin + end), 0.5 * (end - begin)
+
+
 def _between_switches(dataset: Dataset) -> float:
     return float(np.ptp(dataset.time)) / SWITCHES
 
@@ -172,6 +184,7 @@ def _pattern_words(pattern: str, numbers: Numbers) -> str:
     if pattern == "levels":
         return "two levels between which it switches by itself"
     return {
+        DRIFT: "its own torque times time, as with a gain that drifts",
         "clock": f"a period of {1.0 / numbers[0]:.3g} s, independent of the motion",
         "friction": f"its own friction, which switches at {numbers[0]:.3g} s",
         "swing": f"an oscillation at about {numbers[0]:.2g} Hz, independent of the motion",

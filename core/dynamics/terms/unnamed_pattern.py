@@ -17,6 +17,7 @@ from ...arrays import Samples
 from ...numerics.following import follow_with_friction
 from ...robot.model import Parameter, RobotModel
 from ...signals.state import MotionState
+from ..prediction import Prediction
 from .effect import OneJointTerm, step_of
 
 HARMONICS = 3
@@ -58,6 +59,25 @@ class Trace(OneJointTerm):
     def columns(self, state: MotionState) -> list[Samples]:
         """Give the pattern's columns."""
         return PATTERNS[self.pattern](self.joint - 1, self.numbers, state)
+
+
+@dataclass(frozen=True, eq=False)
+class GainDrift(OneJointTerm):
+    """Model a gain of the torque channel that changes with time, steadily or faster at first or at last."""
+
+    believed: Prediction
+    centre: float
+    """Instant about which it changes, s."""
+    seconds: float
+    """Seconds over which it changes by the parameters."""
+    symbols = (("change", "1", None), ("bend", "1", None))
+    kind = "unlisted"
+
+    def columns(self, state: MotionState) -> list[Samples]:
+        """Give the joint's predicted torque, times time and times its square."""
+        torque = self.believed.applied(state)[:, self.joint - 1]
+        time = (_time(state) - self.centre) / self.seconds
+        return [torque * time, torque * time**2]
 
 
 def _speeds(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:

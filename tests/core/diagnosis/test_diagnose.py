@@ -1,5 +1,6 @@
 """Hold whole diagnoses to what their words promise: a name with its evidence, or silence."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -7,6 +8,7 @@ import pytest
 
 from tests.core.diagnosis.residual.worlds import EXAMPLE, world
 from tests.core.diagnosis.scenes import Effect, Scene, measured_arm
+from veritorque.core.diagnosis.checks.reservations import as_doubtful, with_reservations
 from veritorque.core.diagnosis.diagnose import diagnose
 from veritorque.core.diagnosis.problem import DiagnosisProblem
 from veritorque.core.diagnosis.result import Diagnosis
@@ -50,6 +52,14 @@ def test_nothing_is_found_in_the_shipped_log_of_an_arm_that_is_as_described():
 def test_nothing_is_corrected_where_nothing_is_found():
     found = diagnosed(None)
     assert (found.verdict, found.findings, corrections(found)) == ("nothing_found", (), ())
+
+
+def test_causes_are_found_where_one_is_more_likely_right_than_not():
+    found = diagnosed(hidden)
+    kept = with_reservations(found, open_conflict=False, doubted=False)
+    assert (kept.verdict, kept.findings) == ("causes_found", found.findings)
+    doubtful = replace(found, findings=tuple(map(as_doubtful, found.findings)))
+    assert with_reservations(doubtful, open_conflict=False, doubted=False).verdict == "unexplained"
 
 
 def test_a_finding_brings_everything_that_decided():
