@@ -80,7 +80,7 @@ def _add_up(bins, left, leaf_of, leaf, sums) -> None:  # pragma: no cover  (comp
 
 @njit(**_PART)
 def _find_split(sums, least, leaf) -> None:  # pragma: no cover  (compiled)
-    """Write a leaf's best split: what it takes from the squares (0: none), column, bin, sum and rows below."""
+    """Write a leaf's best split: what it saves (0: none), its column, bin, and the sum and rows below."""
     total, count = leaf[0], leaf[1]
     leaf[2] = 0.0
     if count < 2 * least:
