@@ -49,7 +49,7 @@ class Diagnose(Identify):
             lambda document: document["diagnosis"]["verdict"] != "nothing_found",
         ),
     )
-    preload = ("veritorque.core.study", "sklearn.ensemble")
+    preload = ("veritorque.core.study", "veritorque.core.numerics.boosted_trees")
 
     def read_options(self, options: Document) -> "IdentifyOptions":
         """Read the options of a diagnosis."""

@@ -9,9 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import JointSeries, Samples
+from ..numerics.elementwise import differentiate_series
 from ..robot.model import RobotModel
+from ..signals.derivative import REACH, differentiate_throughout
 from ..signals.state import MotionState
 from .prediction import Prediction
+from .terms.effect import step_of
 
 
 @dataclass(frozen=True)
@@ -41,15 +44,20 @@ class Gear:
         by_position, by_velocity, _ = self.believed.slopes(state, own)
         return by_position[:, own], by_velocity[:, own]
 
-    def change(self, state: MotionState, shift: MotionState) -> JointSeries:
-        """Give the first-order change of all joints' loads where the link's motion differs from the motor's.
+    def displaced(self, state: MotionState, lag: Samples) -> JointSeries:
+        """Give the first-order change of all joints' loads where the link lies off the motor by a series."""
+        own, change = self.joint - 1, np.zeros(state.position.shape[::-1])
+        speed = _rate(lag, state)
+        bend = _rate(speed, state)
+        self.believed.add_change(state, own, (lag, speed, bend), change)
+        change[own] -= self.motor_inertia * bend
+        return change.T
 
-        Parameters
-        ----------
-        shift
-            Difference of the link's position, velocity and acceleration, one column each.
-        """
-        own = self.joint - 1
-        change = self.believed.change(state, own, shift)
-        change[:, own] -= self.motor_inertia * shift.acceleration[:, 0]
-        return change
+
+def _rate(series: Samples, state: MotionState) -> Samples:
+    """Differentiate a series as positions are."""
+    rate_hz, out = 1.0 / step_of(state), np.empty_like(series)
+    if len(series) <= REACH:
+        return differentiate_throughout(series[:, None], rate_hz)[:, 0]
+    differentiate_series(series, rate_hz, out)
+    return out

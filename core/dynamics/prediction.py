@@ -14,7 +14,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from ..arrays import JointSeries, LinkTable, Parameters, Weights
+from ..arrays import JointSeries, LinkTable, Parameters, Samples, Series, Weights
 from ..numerics.elementwise import add_products
 from ..robot.model import RobotModel
 from ..signals.state import MotionState
@@ -25,6 +25,8 @@ from .terms.rigid_body import RigidBody
 
 STEPS = (1e-5, 1.0, 1.0)
 """Steps of the differences by position, velocity and acceleration, rad (m), per s, per s2."""
+Shift = tuple[Samples, Samples, Samples]
+"""What is added to position, velocity and acceleration of one joint: contiguous."""
 Slopes = tuple[JointSeries, JointSeries, JointSeries]
 """Derivatives of the load by position, velocity and acceleration of one joint."""
 InverseDynamics = Callable[[RobotModel, LinkTable, MotionState], JointSeries]
@@ -128,22 +130,20 @@ class Prediction:
         )
         return self._sum(light, state)
 
-    def change(self, state: MotionState, joint: int, shift: MotionState) -> JointSeries:
-        """Give the first-order change of the load where one joint's motion differs from the measured one.
+    def add_change(self, state: MotionState, joint: int, shift: Shift, change: Series) -> None:
+        """Add the first-order change of the load where one joint's motion differs from the measured one.
 
         Parameters
         ----------
         joint
             Counted from 0.
         shift
-            Difference of that joint's position, velocity and acceleration, one column each.
+            Difference of that joint's position, velocity and acceleration.
+        change
+            Joints x samples, to which it is added.
         """
-        change = np.empty(state.position.shape[::-1])
-        moved = (shift.position, shift.velocity, shift.acceleration)
-        one, two, three = (np.ascontiguousarray(series[:, 0]) for series in moved)
         by_position, by_velocity, by_acceleration = (table.T for table in self.slopes(state, joint))
-        add_products((by_position, by_velocity, by_acceleration), (one, two, three), change)
-        return change.T
+        add_products((by_position, by_velocity, by_acceleration), shift, change)
 
     def slopes(self, state: MotionState, joint: int) -> Slopes:
         """Give the load's derivatives by position, velocity and acceleration of a joint, counted from 0.

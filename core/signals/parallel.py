@@ -130,7 +130,8 @@ class ParallelFilter:
         high = max(min(end, samples), low)
         part = made(slice(low, high))
         if (low, high) != (begin, end):
-            padded = np.zeros((len(part), end - begin))
+            padded = np.empty((len(part), end - begin))
+            padded[:, : low - begin] = padded[:, high - begin :] = 0.0
             padded[:, low - begin : high - begin] = part
             part = padded
         return np.asarray(part.reshape(len(part), -1, self._length) @ self._condensing)

@@ -42,7 +42,7 @@ NEAR_ONE = {
 }
 """Probabilities and shares near 1: it is their distance from 1 that is halved and doubled."""
 ODD = {"ROWS.spike_order"}
-LOADED = ("clarabel", "numba", "scipy.stats", "sklearn.ensemble", "tests.hidden.plan")
+LOADED = ("clarabel", "numba", "scipy.stats", "veritorque.core.numerics.boosted_trees", "tests.hidden.plan")
 """What every process begins with: all but the diagnosis, whose defaults are read when it is loaded."""
 Answer = tuple[str, ...]
 """The verdict, and every cause with its joints."""

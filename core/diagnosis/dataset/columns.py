@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 
 from ...arrays import KeptSeries, Series
-from ...dynamics.term import Term
+from ...dynamics.term import Entry, Term
 from ...dynamics.terms.payload_change import Payload
 from ...dynamics.terms.unnamed_pattern import Trace
 from ...robot.model import RobotModel
@@ -28,27 +28,30 @@ def term_columns(
         alike.setdefault(term.source if isinstance(term, Trace) else index, []).append(index)
     found = _filtered([terms[indices[0]] for indices in alike.values()], robot, stretches, rows)
     out: list[dict[int, np.ndarray]] = [{} for _ in terms]
-    for indices, columns in zip(alike.values(), found, strict=True):
-        for index in indices:
-            term = terms[index]
-            out[index] = (
-                dict(zip([term.joint - 1], columns.values(), strict=True))
-                if isinstance(term, Trace)
-                else columns
-            )
+    for (first, *others), columns in zip(alike.values(), found, strict=True):
+        out[first] = columns
+        for index in others:
+            joints = dict(terms[index].entries(robot))
+            out[index] = dict(zip(joints, columns.values(), strict=True))
     return out
 
 
 def _filtered(
     terms: Sequence[Term], robot: RobotModel, stretches: Sequence[Stretch], rows: int
 ) -> list[dict[int, np.ndarray]]:
-    shapes = [(term.entries(robot), len(term.parameters(robot))) for term in terms]
-    out = [{joint: np.zeros((rows, width)) for joint in dict(entries)} for entries, width in shapes]
+    entries = [term.entries(robot) for term in terms]
+    out = [_no_columns(pairs, rows) for pairs in entries]
     for stretch in stretches:
         for index, filtered in _filter(terms, robot, stretch):
-            for (joint, parameter), row in zip(shapes[index][0], filtered, strict=True):
+            for (joint, parameter), row in zip(entries[index], filtered, strict=True):
                 out[index][joint][stretch.rows, parameter] += row
     return out
+
+
+def _no_columns(entries: Sequence[Entry], rows: int) -> dict[int, np.ndarray]:
+    """Give a table per joint, wide enough for the last parameter: every one acts somewhere."""
+    width = 1 + max(parameter for _, parameter in entries)
+    return {joint: np.zeros((rows, width)) for joint in dict(entries)}
 
 
 def _filter(terms: Sequence[Term], robot: RobotModel, stretch: Stretch) -> Iterator[tuple[int, KeptSeries]]:

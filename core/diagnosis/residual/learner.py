@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays import Indices, JointSeries, Matrix, Vector
+from ...arrays import Indices, JointSeries, Vector
 from ...dynamics.prediction import Prediction
 from ..dataset.dataset import Dataset
 from ..regression.ar_noise import ARNoise
@@ -73,14 +73,15 @@ def predictable_share(
     # Next to reversals the sign of a measured velocity is not friction's direction, which leaves structure.
     mask = dataset.clear
     rows = mask.sum(axis=0)
-    block, shared = row_blocks(dataset), _shared_features(dataset)
+    block = row_blocks(dataset)
+    shared, own = _features(dataset, operating_point)
     found = []
     for joint in range(dataset.joints):
         if rows[joint] < PREDICTION.least_rows:
             found.append(_not_judged(joint + 1, len(dataset.time)))
             continue
-        features = np.column_stack([shared, _joint_features(dataset, operating_point, joint)])
         gap = _gap(noise[joint], block)
+        features = shared, own[joint]
         prediction = _predict_held_out(features, residual[:, joint], mask[:, joint], block, gap)
         judged = share_on_blocks(prediction, residual[:, joint], block)
         found.append(_predictable(dataset, operating_point, joint + 1, residual[:, joint], judged))
@@ -92,29 +93,27 @@ def _not_judged(joint: int, rows: int) -> Predictable:
     return Predictable(joint, np.nan, (np.nan, np.nan), np.nan, (), np.full(rows, np.nan))
 
 
-def _predict_held_out(features: Matrix, target: Vector, mask: np.ndarray, block: Indices, gap: int) -> Vector:
+def _predict_held_out(
+    features: Sequence["_Sorted"], target: Vector, mask: np.ndarray, block: Indices, gap: int
+) -> Vector:
     """Predict every row in the mask from blocks that are neither its own nor near it."""
-    from sklearn.ensemble import HistGradientBoostingRegressor
-    from threadpoolctl import threadpool_limits
+    from ...numerics.boosted_trees import boost, sort_into_bins
 
-    out = np.full(len(target), np.nan)
-    with threadpool_limits(limits=1):
-        for fold in range(PREDICTION.folds):
-            held = block % PREDICTION.folds == fold
-            near = np.convolve(held, np.ones(2 * gap + 1), mode="same") > 0.5
-            seen, asked = mask & ~near, mask & held
-            if seen.sum() < 2 * PREDICTION.leaf_rows or not asked.any():
-                continue
-            trees = HistGradientBoostingRegressor(
-                max_iter=PREDICTION.trees,
-                learning_rate=PREDICTION.rate,
-                max_leaf_nodes=PREDICTION.leaves,
-                min_samples_leaf=PREDICTION.leaf_rows,
-                max_bins=PREDICTION.quantiles,
-                early_stopping=False,
-                random_state=0,
-            )
-            out[asked] = trees.fit(features[seen], target[seen]).predict(features[asked])
+    columns = np.vstack([part.columns for part in features])
+    order = np.vstack([part.order for part in features])
+    quantiles = np.linspace(0.0, 100.0, PREDICTION.quantiles + 1)[1:-1] / 100.0
+    sizes = PREDICTION.trees, PREDICTION.leaves, PREDICTION.leaf_rows, PREDICTION.quantiles
+    bins, out = np.empty(columns.T.shape, dtype=np.uint8), np.full(len(target), np.nan)
+    for fold in range(PREDICTION.folds):
+        held = block % PREDICTION.folds == fold
+        near = np.convolve(held, np.ones(2 * gap + 1), mode="same") > 0.5
+        seen, asked = mask & ~near, mask & held
+        if seen.sum() < 2 * PREDICTION.leaf_rows or not asked.any():
+            continue
+        sort_into_bins(columns, order, seen, quantiles, bins)
+        predicted = np.empty(np.count_nonzero(asked))
+        boost(bins[seen], target[seen], sizes, PREDICTION.rate, bins[asked], predicted)
+        out[asked] = predicted
     return out
 
 
@@ -123,16 +122,28 @@ def _gap(noise: ARNoise, block: Indices) -> int:
     return max(1, min(memory(noise), int(longest)))
 
 
-def _shared_features(dataset: Dataset) -> Matrix:
+@dataclass(frozen=True, eq=False)
+class _Sorted:
+    """Hold coordinates at the rows, and per coordinate the rows by ascending value."""
+
+    columns: np.ndarray
+    order: np.ndarray
+
+
+def _sorted(columns: Sequence[Vector]) -> _Sorted:
+    """Sort coordinates; one that is not known at every row is left out."""
+    known = np.ascontiguousarray([column for column in columns if np.isfinite(column).all()])
+    return _Sorted(known, np.argsort(known, axis=1))
+
+
+def _features(dataset: Dataset, operating_point: Prediction) -> tuple[_Sorted, list[_Sorted]]:
+    """Give the coordinates that all joints share, and those of each joint."""
     state = dataset.state
-    return np.column_stack([state.position, state.velocity, state.acceleration, dataset.time])
-
-
-def _joint_features(dataset: Dataset, operating_point: Prediction, joint: int) -> Matrix:
     names = ("load", "torque", "travel", "temperature")
     series = [coordinate_series(dataset, operating_point, name) for name in names]
-    direction = np.sign(dataset.state.velocity[:, joint])
-    return np.column_stack([direction, *(values[:, joint] for values in series if values is not None)])
+    own = [np.sign(state.velocity), *(values for values in series if values is not None)]
+    shared = [*state.position.T, *state.velocity.T, *state.acceleration.T, dataset.time]
+    return _sorted(shared), [_sorted([part[:, joint] for part in own]) for joint in range(dataset.joints)]
 
 
 def _predictable(

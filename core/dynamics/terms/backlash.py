@@ -8,6 +8,7 @@ Source: Nordin & Gutman, Automatica 38(10), 2002.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from ...robot.model import RobotModel
 from ...signals.state import MotionState
 from ..gear import Gear
 from ..prediction import Prediction
-from .effect import AllJointsTerm, rates, step_of
+from .effect import AllJointsTerm, step_of
 from .joint_elasticity import smooth
 
 
@@ -40,10 +41,15 @@ class Backlash(AllJointsTerm):
         """Give the change of all joints' loads per rad of half width."""
         del robot
         gear = Gear(self.believed, self.joint, self.motor_inertia)
-        free = gear.load(state) / np.maximum(gear.inertia(state), 1e-9)
-        twist = smooth(twist_of(free, step_of(state), self.around)[:, None], state, self.band_hz)
-        lag = twist / -self.around
-        return [gear.change(state, MotionState(lag, *rates(lag, state)))]
+        twist = twist_of(_free(gear, state), step_of(state), self.around)
+        lag = smooth(twist[:, None], state, self.band_hz)[:, 0] / -self.around
+        return [gear.displaced(state, lag)]
+
+
+@lru_cache(maxsize=64)
+def _free(gear: Gear, state: MotionState) -> Samples:
+    """Give how the motor leaves a link that it does not touch, rad/s2 (m/s2); cached for a scan."""
+    return np.asarray(gear.load(state) / np.maximum(gear.inertia(state), 1e-9))
 
 
 def twist_of(free: Samples, step: float, half_width: float) -> Samples:

@@ -6,10 +6,11 @@ built up, too. Source: Dahl, A Solid Friction Model, Aerospace Corp. TOR-0158, 1
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
-from ...arrays import Samples
+from ...arrays import Indices, Samples, Weights
 from ...signals.state import MotionState
 from .effect import OneJointTerm
 
@@ -32,9 +33,36 @@ class Presliding(OneJointTerm):
 
     def columns(self, state: MotionState) -> list[Samples]:
         """Give Dahl's state minus sign(v)."""
-        own = self.joint - 1
-        position, velocity = state.position[:, own], state.velocity[:, own]
-        return [dahl(position, velocity, self.presliding_distance) - np.sign(velocity)]
+        runs = _runs(state, self.joint - 1)
+        return [runs.friction(self.presliding_distance) - np.sign(state.velocity[:, self.joint - 1])]
+
+
+@dataclass(frozen=True, eq=False)
+class _Runs:
+    """Hold the runs of a motion between its reversals."""
+
+    sign: Samples
+    since: Samples
+    run: Indices
+    """Per sample, its direction, the travel since its run began, and the run's number."""
+    travels: Weights
+    flips: Weights
+    """Per reversal, the travel of the run that it ends, and the direction before it less that behind it."""
+    missing: float
+    """What friction lacks of its direction at the first sample."""
+
+    def friction(self, distance: float) -> Samples:
+        """Give the friction over its level, from -1 to 1."""
+        missing = [self.missing]
+        for left, flip in zip(np.exp(-self.travels / distance), self.flips, strict=True):
+            missing.append(missing[-1] * left + flip)
+        return np.asarray(self.sign + np.array(missing)[self.run] * np.exp(-self.since / distance))
+
+
+@lru_cache(maxsize=64)
+def _runs(state: MotionState, joint: int) -> _Runs:
+    """Give the runs of a joint (from 0); cached for a scan."""
+    return _runs_of(state.position[:, joint], state.velocity[:, joint])
 
 
 def dahl(position: Samples, velocity: Samples, distance: float) -> Samples:
@@ -47,18 +75,24 @@ def dahl(position: Samples, velocity: Samples, distance: float) -> Samples:
     >>> dahl(np.array([0.0, 0.0, -np.log(2.0)]), np.array([1.0, -1.0, -1.0]), 1.0)
     array([1., 1., 0.])
     """
+    return _runs_of(position, velocity).friction(distance)
+
+
+def _runs_of(position: Samples, velocity: Samples) -> _Runs:
     sign = _last_direction(np.sign(velocity))
     travel = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(position)))])
     firsts = np.flatnonzero(np.diff(sign, prepend=0.0))
     begins = travel[firsts]
-    missing = np.zeros(len(firsts))
-    if abs(velocity[0]) <= STANDING * np.abs(velocity).max():
-        missing[0] = -sign[0]
-    for turn in range(1, len(firsts)):
-        left = missing[turn - 1] * np.exp(-(begins[turn] - begins[turn - 1]) / distance)
-        missing[turn] = left + sign[firsts[turn - 1]] - sign[firsts[turn]]
     run = np.searchsorted(firsts, np.arange(len(sign)), side="right") - 1
-    return np.asarray(sign + missing[run] * np.exp(-(travel - begins[run]) / distance))
+    resting = abs(velocity[0]) <= STANDING * np.abs(velocity).max()
+    return _Runs(
+        sign=sign,
+        since=travel - begins[run],
+        run=run,
+        travels=np.diff(begins),
+        flips=sign[firsts[:-1]] - sign[firsts[1:]],
+        missing=-float(sign[0]) if resting else 0.0,
+    )
 
 
 def _last_direction(sign: Samples) -> Samples:

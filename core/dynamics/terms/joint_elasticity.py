@@ -20,7 +20,7 @@ from ...signals.state import MotionState
 from ...signals.zero_phase import kernel
 from ..gear import Gear
 from ..prediction import Prediction
-from .effect import AllJointsTerm, rates, step_of
+from .effect import AllJointsTerm, step_of
 
 LEAST_INERTIA = 0.05
 """Share of the mean moved inertia below which none is taken: a fit may give a posture one of any sign."""
@@ -62,8 +62,8 @@ class Elasticity(AllJointsTerm):
         springs = angular**2 / link.inertia
         squares = np.maximum(springs + link.slope, LEAST_STIFFNESS * springs)
         decays = self.damping_ratio * angular / link.inertia + link.decay
-        lag = -(angular**2) * _followed(link.pull, step_of(state), squares, decays)[:, None]
-        return [gear.change(state, MotionState(lag, *rates(lag, state)))]
+        lag = -(angular**2) * _followed(link.pull, step_of(state), squares, decays)
+        return [gear.displaced(state, lag)]
 
 
 @np.errstate(over="ignore", invalid="ignore")

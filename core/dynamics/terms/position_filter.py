@@ -12,7 +12,7 @@ from functools import lru_cache
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
 
-from ...arrays import JointSeries
+from ...arrays import JointSeries, Series
 from ...robot.model import Parameter, RobotModel
 from ...signals.state import MotionState
 from ...signals.zero_phase import gain
@@ -47,13 +47,12 @@ class PositionFilter(AllJointsTerm):
         """Give the change of torque by what the filter took, per unit of T^(2 order)."""
         del robot
         taken = _taken(state, cutoff_hz(self.around, self.order), self.order, self.most)
-        change = np.zeros_like(state.position)
-        for joint in range(state.position.shape[1]):
-            shift = MotionState(*(part[:, joint : joint + 1] for part in _parts(taken)))
-            change += self.believed.change(state, joint, shift)
-            change[:, joint] += self.believed.rotor(joint + 1) * shift.acceleration[:, 0]
-            change[:, joint] += self.believed.viscous(joint + 1) * shift.velocity[:, 0]
-        return [change / self.around]
+        change = np.zeros(state.position.shape[::-1])
+        for joint, shift in enumerate(zip(*taken, strict=True)):
+            self.believed.add_change(state, joint, shift, change)
+            change[joint] += self.believed.rotor(joint + 1) * shift[2]
+            change[joint] += self.believed.viscous(joint + 1) * shift[1]
+        return [(change / self.around).T]
 
 
 def _parts(state: MotionState) -> tuple[JointSeries, JointSeries, JointSeries]:
@@ -83,8 +82,8 @@ def time_power(cutoff: float, order: int) -> float:
     return float((2.0 * np.pi * cutoff) ** (-2 * order))
 
 
-def _taken(state: MotionState, cutoff: float, order: int, most: int) -> MotionState:
-    """Give what the inverse of the filter adds to a motion."""
+def _taken(state: MotionState, cutoff: float, order: int, most: int) -> list[Series]:
+    """Give what the inverse of the filter adds to positions, velocities and accelerations."""
     rate = 1.0 / step_of(state)
     reach = min(int(np.ceil(PERIODS * rate / cutoff)), len(state.position) - 1)
     transformed, length = _transformed(state, reach)
@@ -92,7 +91,7 @@ def _taken(state: MotionState, cutoff: float, order: int, most: int) -> MotionSt
     passed = gain(frequency, cutoff_hz=min(cutoff, HIGHEST * rate), rate_hz=rate, order=order)
     inverse = np.sum((1.0 - passed) ** np.arange(1.0, most + 1.0)[:, None], axis=0)
     added = irfft(transformed * inverse[:, None], size, axis=0)[reach : reach + len(state.position)]
-    return MotionState(*np.split(added, 3, axis=1))
+    return np.split(np.ascontiguousarray(added.T), 3)
 
 
 @lru_cache(maxsize=8)

@@ -12,12 +12,13 @@ from veritorque.core.dynamics.gear import Gear
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.prediction import Prediction
 from veritorque.core.dynamics.terms.backlash import Backlash
+from veritorque.core.dynamics.terms.effect import step_of
 from veritorque.core.dynamics.terms.friction_load_dependent import LoadFriction
 from veritorque.core.dynamics.terms.joint_elasticity import Elasticity
 from veritorque.core.dynamics.terms.payload_change import Payload
 from veritorque.core.dynamics.terms.spring_compensator import Spring
 from veritorque.core.dynamics.terms.viscous import Viscous
-from veritorque.core.signals.state import MotionState
+from veritorque.core.signals.derivative import differentiate_throughout
 
 ROTOR = 0.7
 TERMS = {
@@ -40,18 +41,34 @@ def believed_apart_and_joined():
 def test_a_rotor_that_was_joined_to_its_link_is_taken_out_of_the_load_again(which):
     """The first link's moment about its axis and the rotor's inertia are one number to any fit."""
     state = swinging(3, 2.0)
-    shift = MotionState(*(np.sin(np.outer(state.time, [rate])) for rate in (1.0, 2.0, 3.0)))
+    lag = np.sin(3.0 * state.time)
 
     def seen(gear):
         return {
             "load": lambda: gear.load(state),
             "inertia": lambda: gear.inertia(state),
-            "change": lambda: gear.change(state, shift),
+            "change": lambda: gear.displaced(state, lag),
         }[which]()
 
     link, both = (Gear(one, 1) for one in believed_apart_and_joined())
     np.testing.assert_allclose(seen(replace(both, motor_inertia=ROTOR)), seen(link), rtol=1e-9, atol=1e-9)
     assert np.abs(seen(both) - seen(link)).max() > 0.1 * ROTOR
+
+
+@pytest.mark.parametrize("samples", [3, 4, 200])
+def test_a_link_that_lies_off_its_motor_changes_the_loads_by_its_own_motion(samples):
+    """Its speed and acceleration are taken as those of positions are, ends included."""
+    state = swinging(3, 2.0).at(slice(0, samples))
+    described, _ = believed_apart_and_joined()
+    lag = 1e-3 * np.cos(40.0 * state.time)
+    speed = differentiate_throughout(lag[:, None], 1.0 / step_of(state))
+    bend = differentiate_throughout(speed, 1.0 / step_of(state))
+    slopes = described.slopes(state, 1)
+    expected = sum(slope * part for slope, part in zip(slopes, (lag[:, None], speed, bend), strict=True))
+    size = np.abs(expected).max()
+    np.testing.assert_allclose(
+        Gear(described, 2).displaced(state, lag), expected, rtol=0.0, atol=1e-14 * size
+    )
 
 
 @pytest.mark.parametrize("term", TERMS.values(), ids=TERMS)

@@ -1,5 +1,6 @@
 """What a frozen model predicts, and that asking twice costs once."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 
 from tests.core.dynamics.terms.chains import motion_of
 from tests.tools import random_robot
-from veritorque.core.arrays import JointSeries, LinkTable
+from veritorque.core.arrays import JointSeries, LinkTable, Samples
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.newton_euler import inverse_dynamics
 from veritorque.core.dynamics.prediction import Prediction, shift_joint
@@ -20,6 +21,13 @@ def believed_with_friction(seed: int, joints: int = 4) -> Prediction:
     rng = np.random.default_rng(seed)
     model = standard_model(random_robot(rng, joints))
     return Prediction(model, rng.normal(size=len(model.parameters)))
+
+
+def change_of(described: Prediction, state: MotionState, joint: int, shift: Sequence[Samples]) -> JointSeries:
+    """Give the change of the load by a shift of one joint, once it was added to another change."""
+    other = np.ones(state.position.shape[::-1])
+    described.add_change(state, joint, tuple(shift), other)
+    return other.T - 1.0
 
 
 def test_a_prediction_is_the_torque_of_its_model():
@@ -48,9 +56,8 @@ def test_a_state_that_was_asked_for_is_not_computed_again():
         described.torque(state)
         described.load(state)
     assert len(asked) == 1
-    shift = MotionState(*(np.full((len(state.position), 1), size) for size in (0.1, 0.2, 0.3)))
     for _ in range(2):
-        described.change(state, 0, shift)
+        change_of(described, state, 0, [np.full(len(state.position), size) for size in (0.1, 0.2, 0.3)])
         described.slopes(state, 0)
     assert len(asked) == 7
 
@@ -59,11 +66,11 @@ def test_a_state_that_was_asked_for_is_not_computed_again():
 def test_a_small_shift_of_a_joint_changes_the_load_by_its_slopes(joint, joints):
     described, state = believed_with_friction(6, joints), motion_of(6, joints=joints)
     rng = np.random.default_rng(7)
-    shift = MotionState(*(rng.normal(size=(len(state.position), 1)) for _ in range(3)))
+    shift = [rng.normal(size=len(state.position)) for _ in range(3)]
     size = 1e-6
-    small = MotionState(size * shift.position, size * shift.velocity, size * shift.acceleration)
+    small = MotionState(*(size * part[:, None] for part in shift))
     found = (described.load(shift_joint(state, joint, small)) - described.load(state)) / size
-    change = described.change(state, joint, shift)
+    change = change_of(described, state, joint, shift)
     # What is left is of second order: a millionth, times how much slopes change over one radian.
     np.testing.assert_allclose(found, change, atol=1e-4 * np.abs(change).max())
 

@@ -88,6 +88,19 @@ def test_a_joint_that_hardly_moves_is_not_judged_while_the_others_are():
     assert all(np.isfinite([one.share, *one.interval, one.rms]).all() for one in others)
 
 
+def test_a_coordinate_that_is_not_known_at_every_row_is_left_out():
+    here = world()
+    residual, noise = here.left(on_joint(here, 1, np.sin(3.0 * here.dataset.state.position[:, 0])))
+    temperature = np.full_like(here.dataset.torque, np.nan)
+    warm = replace(here.dataset, state=replace(here.dataset.state, temperature=temperature))
+    one, other = (
+        predictable_share(dataset, residual, here.operating_point, noise)[0]
+        for dataset in (here.dataset, warm)
+    )
+    assert (one.share, one.interval) == (other.share, other.interval)
+
+
 def test_the_trees_are_loaded_only_where_they_are_grown():
-    code = "import sys, veritorque.core.diagnosis.residual.learner; sys.exit('sklearn' in sys.modules)"
+    trees = "veritorque.core.numerics.boosted_trees"
+    code = f"import sys, veritorque.core.diagnosis.residual.learner; sys.exit('{trees}' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
