@@ -1,25 +1,10 @@
 """Name the axes of every array, so that a signature says what a comment would.
 
-Tests check the aliases at run time (jaxtyping with beartype), and a type checker reads them. Anywhere else
-they stand for plain arrays, and nothing is loaded for them.
+The aliases are checked at run time in the tests (jaxtyping with beartype) and cost nothing in production.
 """
 
-import sys
-from typing import TYPE_CHECKING
-
 import numpy as np
-
-if TYPE_CHECKING or "jaxtyping" in sys.modules:
-    from jaxtyping import Bool, Complex, Float, Int
-else:
-
-    class _Plain:
-        """Stand for an array of any shape."""
-
-        def __class_getitem__(cls, described: tuple[type, str]) -> type:
-            return described[0]
-
-    Bool = Complex = Float = Int = _Plain
+from jaxtyping import Bool, Complex, Float, Int
 
 # "samples" are instants as measured, "instants" those a computation asks for or leaves.
 Samples = Float[np.ndarray, " samples"]
@@ -53,10 +38,6 @@ KeptSeries = Float[np.ndarray, "entries instants"]
 Spectrum = Complex[np.ndarray, " _"]
 Indices = Int[np.ndarray, " _"]
 Runs = Int[np.ndarray, "runs 2"]
-IncrementMask = Bool[np.ndarray, " increments"]
-Marks = Bool[np.ndarray, "rows columns"]
-Jacobian = Float[np.ndarray, "samples 6 joints"]
-RowSeries = Float[np.ndarray, "rows joints"]
 BlockDraws = Int[np.ndarray, "draws blocks"]
 BlockKey = tuple[int, int]
 """Number of a log and of one of its blocks, both from 0."""

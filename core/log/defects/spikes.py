@@ -7,8 +7,9 @@ where there is none. The scale is local, because a resting arm is quieter than a
 from dataclasses import replace
 
 import numpy as np
+from jaxtyping import Bool
 
-from ...arrays import Marks, Matrix, Series, Vector
+from ...arrays import Matrix, Series, Vector
 from ..model import Defect
 from .runs import Runs
 from .stretch import Facts, Stretch, count_text
@@ -18,6 +19,7 @@ SMALLEST_SHARE = {"position": 1e-3, "torque": 0.05, "current": 0.05}
 NOISE_FACTOR = 20.0
 INCREMENT_FACTOR = 4.0
 RESOLUTION_FACTOR = 3.0
+Marks = Bool[np.ndarray, "rows columns"]
 ROUNDS = 5
 """The largest spikes raise the mean distance; so often it is taken anew without those that are known."""
 
