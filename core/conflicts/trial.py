@@ -91,6 +91,11 @@ class Trials:
             self._regressors[key] = self._regressor(setup)
         return Equations(self._regressors[key], setup.assignment.torque)
 
+    def bound(self, setup: Setup) -> float:
+        """Give what least squares leaves under a set-up that is tried in passing: nothing of it is kept."""
+        products = self._regressor(setup).products
+        return float(products.read(setup.assignment.torque).bound)
+
     def moves(self, setup: Setup) -> JointMarks:
         """Mark the joints that have equations: the others stand all the time."""
         return np.asarray(self.samples.moved(setup.assignment).usable.any(axis=0))
