@@ -69,6 +69,8 @@ class Segment:
     """The real stamps in s where they deviate from that clock, else None."""
     motors: Matrix
     """Weights of the joints' speeds in those of motors that move several joints, motors x joints."""
+    number: int = 0
+    """Number of its log among those that are studied together."""
 
     @cached_property
     def kept(self) -> int:
@@ -113,7 +115,8 @@ class Segment:
         wide, torque, unknown = self._condition(early, late)
         inner = slice(begin - early, end - early)
         now = self.begin_time + np.arange(begin, end) / self.rate_hz
-        state = replace(wide.at(inner), time=now, temperature=self._temperature(now))
+        logs = np.full(len(now), float(self.number))
+        state = replace(wide.at(inner), time=now, temperature=self._temperature(now), log=logs)
         marks = (self._unusable(wide.velocity, early) | self._at_a_limit(torque) | unknown[:, None])[inner]
         turns = self._undirected(wide.velocity)[inner]
         unusable, turning = (

@@ -19,6 +19,8 @@ class MotionState:
     """The instants, s, on the log's own clock; None where only the configuration matters."""
     temperature: JointSeries | None = None
     """Temperature of every joint, degC; None where none was logged."""
+    log: Samples | None = None
+    """Number of the log, from 0, that each instant belongs to; None where motions are of no log."""
     friction_share: FrictionShares | None = None
     """Dry friction as a share of its level, from -1 to 1: of the joints first, then of declared couplings.
     A simulation knows it also where friction holds, and it stands in the place of the velocity's sign; None

@@ -133,7 +133,8 @@ def build_dataset(
         If no row is left.
     """
     motions = tuple(
-        condition(log, model.robot, _options(log, width, model.robot), blocks=blocks) for log in logs
+        condition(log, model.robot, _options(log, width, model.robot), blocks=blocks, number=number)
+        for number, log in enumerate(logs)
     )
     parts = _segments(motions, model.robot, [log.duration for log in logs])
     series = _concatenate_series(parts)
