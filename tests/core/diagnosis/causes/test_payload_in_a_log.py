@@ -4,6 +4,7 @@ import pytest
 
 from tests.plant.again import arm_of, logged
 from tests.plant.effects.surroundings import PayloadChange
+from tests.plant.robots import Arm
 from veritorque.core.log.model import JointLog, whole_rows
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.study import IdentifyRequest, diagnose
@@ -18,8 +19,8 @@ def empty() -> JointLog:
     return logged(ARM, 102, duration=20.0)
 
 
-def payloads(*logs: JointLog) -> list[dict[str, object]]:
-    document = diagnose(IdentifyRequest(ARM.robot, logs, PLAIN))
+def payloads(*logs: JointLog, arm: Arm = ARM) -> list[dict[str, object]]:
+    document = diagnose(IdentifyRequest(arm.robot, logs, PLAIN))
     return [found for found in document["diagnosis"]["findings"] if found["cause"] == "payload_change"]
 
 
@@ -35,10 +36,11 @@ def test_a_body_in_one_of_two_logs_is_named_with_mass_and_centre(empty, first):
     assert "in log 2" in found["statement"]
 
 
-def test_torques_that_are_all_larger_in_one_log_are_no_body_for_sure(empty):
-    rows = whole_rows(logged(ARM, 202, duration=20.0))
+def test_torques_that_are_all_larger_in_one_log_are_no_body_for_sure():
+    arm = arm_of("ur10e", 3)
+    sound, rows = logged(arm, 103), whole_rows(logged(arm, 203))
     louder = log_from_arrays("louder", rows.time, rows.position, 1.05 * rows.torque)
-    assert all(found["confidence"] <= 0.5 for found in payloads(empty, louder))
+    assert all(found["confidence"] <= 0.5 for found in payloads(sound, louder, arm=arm))
 
 
 def test_two_sound_logs_have_no_body(empty):
