@@ -27,7 +27,8 @@ Path = tuple[FoundConflict, ...]
 
 def cost(path: Path) -> float:
     """Give the last error, to which each correction that is not expected adds what one has to gain."""
-    return path[-1].after.score + DECISION.least_gain * sum(not step.hypothesis.expected for step in path)
+    corrections = sum(step.hypothesis.corrections for step in path if not step.hypothesis.expected)
+    return path[-1].after.score + DECISION.least_gain * corrections
 
 
 def unsure(path: Path) -> Path:

@@ -79,7 +79,7 @@ def _taken(
             "velocity": tile.state.velocity,
             "acceleration": tile.state.acceleration,
             "torque": tile.torque,
-            "direction": np.sign(tile.state.velocity),
+            "direction": tile.state.direction,
         }
         judged = np.searchsorted(fitted, tile.block[taken]) % TRIAL.judged_every == 1
         yield {

@@ -33,7 +33,8 @@ class _Tried:
     hypothesis: Hypothesis
     outcome: Outcome
     score: float
-    """Mean logarithm of the errors, less what an expected correction need not gain."""
+    """Mean logarithm of the errors, less what an expected correction need not gain, and more by what several
+    corrections in one have to."""
 
     def step(self, before: Outcome, confidence: float, near: "list[_Tried]") -> FoundConflict:
         """Give the conflict, with those of the near ones that are of another kind or joint."""
@@ -149,7 +150,9 @@ def _try(candidate: _Bounded, trials: Trials, needed: float) -> _Tried | None:
     outcome = trials.outcome(candidate.equations)
     if outcome is None:
         return None
-    return _Tried(candidate.hypothesis, outcome, outcome.score - needed * candidate.hypothesis.expected)
+    own = candidate.hypothesis
+    credit = needed if own.expected else -DECISION.least_gain * (own.corrections - 1)
+    return _Tried(own, outcome, outcome.score - credit)
 
 
 def _better(tried: Iterable[_Tried], present: Outcome, needed: float) -> list[_Tried]:

@@ -114,6 +114,25 @@ class Ratio:
     """Logarithm to which a factor is refined."""
     least: float = np.log(2.0)
     """Logarithm below which a factor is a cause with a size, and no conflict."""
+    steps: int = 13
+    """Factors of a position that are tried first, from the least with which a joint moves to the largest with
+    which it can."""
+    least_position: float = np.log(1.1)
+    """Logarithm below which a factor of a position is no gear's and no unit's."""
+    next_to: float = 0.6
+    """Logarithm on either side of the best of these factors within which it is refined."""
+    apart: float = 1.0
+    """Logarithm within which a joint's own factor is looked for about that of all."""
+    unknown: float = 0.1
+    """Standard deviation of a logarithm above which a log does not tell the factor."""
+    curvature_step: float = 0.02
+    """Logarithm by which a factor of a position is changed to see how well it is known."""
+    fine: float = 2e-4
+    """Logarithm to which factors of positions are refined."""
+    settled: float = 1e-6
+    """Relative change of the bound below which the refinement of several of them ends."""
+    gears: tuple[float, float] = (20.0, 200.0)
+    """Ratios that gears of robots have."""
 
 
 @dataclass(frozen=True)

@@ -94,13 +94,20 @@ class Trials:
             self._regressors[key] = self._regressor(setup)
         return Equations(self._regressors[key], setup.assignment.torque)
 
+    def bound(self, setup: Setup) -> float:
+        """Give what least squares leaves under a set-up that is tried in passing: nothing of it is kept."""
+        products = self._regressor(setup).products
+        return float(products.read(setup.assignment.torque).bound)
+
     def moves(self, setup: Setup) -> JointMarks:
         """Mark the joints that have equations: the others stand all the time."""
         return np.asarray(self.samples.moved(setup.assignment).usable.any(axis=0))
 
     def outcome(self, equations: Equations) -> Outcome | None:
-        """Fit a set-up with its constraints; None where no accurate optimum is found."""
+        """Fit a set-up with its constraints; None without an accurate optimum, or with too few rows."""
         reduced, base, rows = equations.reduced, equations.regressor.base, equations.regressor.fitted
+        if reduced.rows.sum() <= len(base.kept):
+            return None
         columns_of = equations.regressor.plan.columns_of
         system = condensed(rows.columns, columns_of, rows.torque(equations.channels), reduced.noise)
         of_torque = replace(base.model, robot=replace(base.model.robot, prior=None))

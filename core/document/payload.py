@@ -25,7 +25,7 @@ def payload_row(finding: Finding, diagnosis: Diagnosis) -> dict[str, object] | N
     solved: FittedCause = chosen.solved(chosen.members.index(finding.member))
     robot = diagnosis.dataset.robot
     joint = finding.joints[0]
-    throughout = "time" not in solved.scalars
+    throughout = not solved.scalars
     link = (links_by_joint if throughout else end_links)(robot)[joint]
     return framed_payload(robot, link, solved.values, solved.covariance)
 

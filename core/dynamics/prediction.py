@@ -221,4 +221,10 @@ def shift_joint(state: MotionState, joint: int, shift: MotionState) -> MotionSta
     position[:, joint] += shift.position[:, 0]
     velocity[:, joint] += shift.velocity[:, 0]
     acceleration[:, joint] += shift.acceleration[:, 0]
-    return replace(state, position=position, velocity=velocity, acceleration=acceleration)
+    stamped = state.stamped_velocity
+    if stamped is not None:
+        stamped = stamped.copy()
+        stamped[:, joint] += shift.velocity
+    return replace(
+        state, position=position, velocity=velocity, acceleration=acceleration, stamped_velocity=stamped
+    )

@@ -142,7 +142,8 @@ def _conditioned(problem: Problem, options: FilterOptions, band_hz: float) -> tu
         return replace(options, cutoff_hz=band, position_cutoff_hz=positions)
 
     return tuple(
-        condition(motion.log, robot, within(motion), blocks=motion.blocks) for motion in problem.motions
+        condition(motion.log, robot, within(motion), blocks=motion.blocks, number=number)
+        for number, motion in enumerate(problem.motions)
     )
 
 

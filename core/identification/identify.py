@@ -15,6 +15,7 @@ from ..estimate.plausibility import link_bounds
 from ..estimate.problem import ObservedProblem, Problem
 from ..estimate.simulator import SimulationSetup, simulation_setup
 from ..estimate.system import System
+from ..log.gaps import naming_gaps
 from ..log.model import JointLog
 from ..numerics.block_bootstrap import block_draws
 from ..numerics.mapping import SERIAL, Mapper
@@ -97,13 +98,15 @@ def _fit(problem: Problem, options: IdentifyOptions, tell: Progress, observation
     """Fit by the estimator that the options name."""
     tell("estimate", 0.6)
     asked = options.estimate
-    scales = torque_scales(observation, observation.parts(problem.held_out)[0])
+    with naming_gaps([motion.log for motion in problem.motions]):
+        scales = torque_scales(observation, observation.parts(problem.held_out)[0])
     problem, observation, judged_by = _begun(problem, options, observation)
     simulation = simulation_setup(problem.base, problem.motions, asked.simulation)
     data = ObservedProblem(
         problem, observation, asked.robust, asked.weigh_reversals, simulation=simulation, kalman=asked.kalman
     )
-    data.check_excitation()
+    with naming_gaps([motion.log for motion in problem.motions]):
+        data.check_excitation()
     prior = default_prior(problem.base.model, scales, problem.sizes)
 
     def solve(step: Step) -> Estimate:

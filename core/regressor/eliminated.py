@@ -56,7 +56,7 @@ class Transmission:
         """Give what the springs carry, smoothed like the positions."""
         state, joints = tile.state, self.joints
         velocity = state.velocity[:, joints]
-        pushed = tile.torque[:, joints] - self.coulomb * np.sign(velocity)
+        pushed = tile.torque[:, joints] - self.coulomb * state.direction[:, joints]
         taken = self.rotor * state.acceleration[:, joints] + self.viscous * velocity + self.offset
         return np.asarray(smoothed(pushed, recipe, step_of(state)) - taken)
 

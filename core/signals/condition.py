@@ -56,9 +56,19 @@ class Motion:
 
 
 def condition(
-    log: JointLog, robot: RobotModel, options: FilterOptions | None = None, *, blocks: int = 20
+    log: JointLog,
+    robot: RobotModel,
+    options: FilterOptions | None = None,
+    *,
+    blocks: int = 20,
+    number: int = 0,
 ) -> Motion:
     """Settle clock, recipe and torque channel of a log for a robot.
+
+    Parameters
+    ----------
+    number
+        Of the log among those that are studied together, from 0.
 
     Raises
     ------
@@ -75,7 +85,7 @@ def condition(
     recipe = choose_recipe(log, options or FilterOptions(), prismatic_joints(robot))
     motors = _shared_motors(robot)
     segments = tuple(
-        segment
+        replace(segment, number=number)
         for segment in (gap_free(log, recipe, span, motors) for span in log.segments)
         if segment is not None
     )

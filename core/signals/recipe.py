@@ -11,6 +11,7 @@ import numpy as np
 
 from ..arrays import JointMarks, JointVector, Mask
 from ..errors import LogError, OptionError
+from ..log.gaps import naming_gaps
 from ..log.model import JointLog
 from ..robot.joint_units import largest_of_kind
 from .noise_band import ATTENUATION, OUTWEIGHED, noise_cutoff
@@ -155,11 +156,15 @@ def choose_recipe(log: JointLog, options: FilterOptions, prismatic: Mask | None 
 def _choose(log: JointLog, options: FilterOptions, prismatic: Mask) -> Recipe:
     rates = segment_rates(log)
     if not rates:
-        raise LogError(
-            "no stretch of the log between its gaps is long enough to be differentiated",
-            evidence={"longest_samples": max(stop - start for start, stop in log.segments), "log": log.name},
-            remedy="record at least one second without gaps",
-        )
+        with naming_gaps([log]):
+            raise LogError(
+                "no stretch of the log between its gaps is long enough to be differentiated",
+                evidence={
+                    "longest_samples": max(stop - start for start, stop in log.segments),
+                    "log": log.name,
+                },
+                remedy="record at least one second without gaps",
+            )
     rate, survey = log.rate_hz, survey_of(log, options.median_order)
     bands, speeds, slowest = survey.bands, survey.speeds, min(survey.slowest, *rates)
     still_speed = _still_speed(survey, prismatic)

@@ -7,10 +7,12 @@ replaced before a spline is laid through them: it would spread one of them over 
 look absurd any more.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from ..arrays import Instants, InstantSeries, JointSeries, JointVector, SampleMask, Samples
+from ..arrays import Beside, Instants, InstantSeries, JointSeries, JointVector, SampleMask, Samples
 from ..log.model import STANDING_ROWS, LogRows, repeated_rows, rows_at
 from ..numerics.marked_runs import marked_runs
 from .clock import is_even
@@ -18,6 +20,17 @@ from .derivative import absurd_reach, continued, median, without_absurd
 
 MEDIAN_ORDER = 5
 """Of the median from which a spike's distance is measured, as when the log's spikes were found."""
+
+
+class Readings(NamedTuple):
+    """Hold positions and efforts on an even clock."""
+
+    position: JointSeries
+    effort: JointSeries
+    unknown: SampleMask
+    """Instants at which nothing was measured for long."""
+    stamps: Samples | None
+    """The stamps of the samples between which they were interpolated; None where they are as measured."""
 
 
 def uniform_positions(rows: LogRows, rate_hz: float, median_order: int) -> JointSeries:
@@ -64,6 +77,17 @@ def effort_of(rows: LogRows) -> JointSeries:
 def without_spikes(position: JointSeries, median_order: int) -> JointSeries:
     """Replace the absurd samples of a whole stretch, which is continued beyond its ends to judge these."""
     return without_absurd(continued(position, absurd_reach(median_order)), median_order)
+
+
+def beside(grid: Samples, stamps: Instants, velocity: JointSeries) -> tuple[Beside, Samples]:
+    """Give the velocities at the stamps before and behind each instant of a grid.
+
+    The share says how far the instant lies from the first to the second.
+    """
+    at = linear(stamps, grid, velocity)
+    after = np.clip(np.searchsorted(stamps, grid), 1, len(stamps) - 1)
+    share = (grid - stamps[after - 1]) / (stamps[after] - stamps[after - 1])
+    return np.stack([at[after - 1], at[after]], axis=-1), np.clip(share, 0.0, 1.0)
 
 
 def linear(grid: Instants, time: Samples, values: JointSeries) -> InstantSeries:

@@ -5,7 +5,7 @@ of the ends and of rows that are missing for long, and every standstill, is mark
 paper, section 4.1.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -31,6 +31,8 @@ from .marks import at_limit, changes_sign, long_runs
 from .parallel import ParallelFilter, Tile
 from .recipe import Recipe, is_usable
 from .resample import (
+    Readings,
+    beside,
     dropped_mask,
     efforts_on,
     gap_mask,
@@ -67,6 +69,8 @@ class Segment:
     """The real stamps in s where they deviate from that clock, else None."""
     motors: Matrix
     """Weights of the joints' speeds in those of motors that move several joints, motors x joints."""
+    number: int = 0
+    """Number of its log among those that are studied together."""
 
     @cached_property
     def kept(self) -> int:
@@ -111,9 +115,8 @@ class Segment:
         wide, torque, unknown = self._condition(early, late)
         inner = slice(begin - early, end - early)
         now = self.begin_time + np.arange(begin, end) / self.rate_hz
-        state = MotionState(
-            wide.position[inner], wide.velocity[inner], wide.acceleration[inner], now, self._temperature(now)
-        )
+        logs = np.full(len(now), float(self.number))
+        state = replace(wide.at(inner), time=now, temperature=self._temperature(now), log=logs)
         marks = (self._unusable(wide.velocity, early) | self._at_a_limit(torque) | unknown[:, None])[inner]
         turns = self._undirected(wide.velocity)[inner]
         unusable, turning = (
@@ -135,13 +138,12 @@ class Segment:
 
     def measured_positions(self, begin: int, end: int) -> JointSeries:
         """Give the positions (rad or m) of some samples without spikes, but not filtered."""
-        return self._read(begin, end)[0]
+        return self._read(begin, end).position
 
     def effort(self, first_kept: int, last_kept: int) -> tuple[JointSeries, int]:
         """Give the effort that such decimated samples see, and the sample at which the first of them lies."""
         begin, end = self._seen(first_kept, last_kept)
-        _, effort, _ = self._read(begin, end)
-        return effort, first_kept * self.recipe.decimation - begin
+        return self._read(begin, end).effort, first_kept * self.recipe.decimation - begin
 
     def _seen(self, first_kept: int, last_kept: int) -> tuple[int, int]:
         """Give the samples that decimated samples see, from the first up to, not including, the last."""
@@ -152,8 +154,8 @@ class Segment:
         """Give state, torque, and what rests on instants at which nothing was measured."""
         halo = len(self.low_pass) // 2 + 2 * REACH
         left, right = max(0, begin - halo), min(self.samples, end + halo)
-        position, torque, bridge = self._read(left, right)
-        padded = _extend(position, halo - (begin - left), halo - (right - end))
+        read = self._read(left, right)
+        padded = _extend(read.position, halo - (begin - left), halo - (right - end))
         smooth = oaconvolve(padded, self.low_pass[:, None], mode="valid", axes=0)
         velocity = differentiate(smooth, self.rate_hz)
         acceleration = differentiate(velocity, self.rate_hz)
@@ -161,11 +163,16 @@ class Segment:
         velocity[still] = 0.0
         acceleration[still[REACH:-REACH]] = 0.0
         state = MotionState(smooth[2 * REACH : -2 * REACH], velocity[REACH:-REACH], acceleration)
-        inner = slice(begin - left, len(torque) - (right - end))
-        unknown = maximum_filter1d(bridge, 2 * self.reach + 1, mode="constant") if bridge.any() else bridge
-        return state, torque[inner], unknown[inner]
+        if read.stamps is not None:
+            grid = self.begin_time + np.arange(begin, end) / self.rate_hz
+            stamped, behind = beside(grid, read.stamps, state.velocity)
+            state = replace(state, stamped_velocity=stamped, behind=behind)
+        inner = slice(begin - left, len(read.effort) - (right - end))
+        gap = read.unknown
+        unknown = maximum_filter1d(gap, 2 * self.reach + 1, mode="constant") if gap.any() else gap
+        return state, read.effort[inner], unknown[inner]
 
-    def _read(self, begin: int, end: int) -> tuple[JointSeries, JointSeries, SampleMask]:
+    def _read(self, begin: int, end: int) -> Readings:
         if self.stamps is None:
             return self._read_even(begin, end)
         grid = self.begin_time + np.arange(begin, end) / self.rate_hz
@@ -173,7 +180,7 @@ class Segment:
         rows, _ = self._rows(int(near[0]), int(near[1]))
         return self._interpolate(rows, grid)
 
-    def _read_even(self, begin: int, end: int) -> tuple[JointSeries, JointSeries, SampleMask]:
+    def _read_even(self, begin: int, end: int) -> Readings:
         """Take even samples as they are, unless some of them only repeat the one before."""
         rows, before = self._rows(begin, end)
         inner = slice(before, before + end - begin)
@@ -181,7 +188,7 @@ class Segment:
             return self._interpolate(rows, rows.time[inner])
         position = without_spikes(rows.position, self.recipe.median_order)
         effort = plausible_effort(rows, self._effort_limits)
-        return position[inner], effort[inner], np.zeros(end - begin, dtype=bool)
+        return Readings(position[inner], effort[inner], np.zeros(end - begin, dtype=bool), None)
 
     def _rows(self, begin: int, end: int) -> tuple[LogRows, int]:
         """Read some rows with all neighbours that bear on them; count those before them."""
@@ -189,12 +196,13 @@ class Segment:
         low, high = max(0, begin - neighbours), min(self.samples, end + neighbours)
         return self.log.source.rows(self.start + low, self.start + high), begin - low
 
-    def _interpolate(self, rows: LogRows, grid: Instants) -> tuple[JointSeries, JointSeries, SampleMask]:
+    def _interpolate(self, rows: LogRows, grid: Instants) -> Readings:
         """Interpolate at the instants of a grid; copied rows count as a gap in the stamps."""
         bridge = longest_bridge(1.0 / self.rate_hz, self.recipe.motion_band_hz)
         unknown = gap_mask(rows, grid, max(bridge, GAP_STEPS / self.rate_hz))
         position = positions_on(grid, rows, self.recipe.median_order)
-        return position, efforts_on(grid, rows, self._effort_limits), unknown
+        effort = efforts_on(grid, rows, self._effort_limits)
+        return Readings(position, effort, unknown, rows.time[~dropped_mask(rows)])
 
     def _temperature(self, now: Instants) -> InstantSeries | None:
         if "temperature" not in self.log.channels:

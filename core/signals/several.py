@@ -26,9 +26,9 @@ def condition_all(
     """
     _check(logs)
     motions = []
-    for log in logs:
+    for number, log in enumerate(logs):
         try:
-            motions.append(condition(log, robot, options, blocks=blocks))
+            motions.append(condition(log, robot, options, blocks=blocks, number=number))
         except VeritorqueError as error:
             error.evidence.setdefault("log", log.name)
             raise

@@ -35,6 +35,8 @@ class States:
     """Of every state, s."""
     temperature: np.ndarray | None = None
     """Of every joint, degC; None where none was logged."""
+    log: np.ndarray | None = None
+    """Number of the log that each is of."""
 
     @classmethod
     def starting(cls, mechanism: Mechanism, state: MotionState) -> Self:
@@ -47,6 +49,7 @@ class States:
             direction=np.sign(mechanism.weights @ velocity),
             time=np.zeros(len(state.position)) if state.time is None else state.time,
             temperature=None if state.temperature is None else columns(state.temperature),
+            log=state.log,
         )
 
     def chosen(self, which: np.ndarray) -> Self:
@@ -62,6 +65,7 @@ class States:
             direction=direction,
             time=self.time[which],
             temperature=temperature,
+            log=None if self.log is None else self.log[which],
         )
 
     def later(self, time: np.ndarray) -> Self:
@@ -203,7 +207,8 @@ def drag_of(mechanism: Mechanism, states: States) -> np.ndarray:
 
 def _evaluate(mechanism: Mechanism, states: States, velocity: np.ndarray) -> np.ndarray:
     temperature = None if states.temperature is None else states.temperature.T
-    state = MotionState(states.position.T, velocity.T, states.acceleration.T, states.time, temperature)
+    motion = states.position.T, velocity.T, states.acceleration.T
+    state = MotionState(*motion, states.time, temperature, states.log)
     return np.asarray(mechanism.others.torque(state).T)
 
 

@@ -93,6 +93,16 @@ def gear_ratio(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Sp
     return Spoilt(robot, assigned(log, spoilt), "gear_ratio", (joint + 1,), "torque")
 
 
+def motor_side(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
+    """Take all positions on the motors' side of gears, in rad, which may have been declared as degrees."""
+    plain, joints = Assignment.as_measured(log.joints), tuple(range(1, log.joints + 1))
+    declared = np.pi / 180.0 if rng.random() < 0.5 else 1.0
+    position = plain.position
+    for joint in range(log.joints):
+        position = position.scaled(declared * rng.uniform(50.0, 160.0), joint)
+    return Spoilt(robot, assigned(log, replace(plain, position=position)), "gear_ratio", joints, "position")
+
+
 def time_base(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
     """Stretch the stamps beside a measured velocity."""
     rows, factor = whole_rows(log), float(rng.choice([0.5, 2.0, 1.25, 4.0]))
@@ -122,6 +132,7 @@ SPOILERS: Mapping[str, Spoiler] = {
         zero_quarter_turn,
         unit,
         gear_ratio,
+        motor_side,
         time_base,
     )
 }

@@ -1,4 +1,4 @@
-"""Test whether a torque is off by a factor that is no unit's: a gear ratio, or a wrong torque constant."""
+"""Test whether a torque or positions are off by a factor that is no unit's, as a gear ratio or a constant."""
 
 from collections.abc import Iterator
 
@@ -10,16 +10,17 @@ from ..reduced import Reduced
 from ..setup import Setup
 from ..thresholds import RATIO
 from ..trial import Trials
+from .position_ratio import position_hypotheses
 
 
 class GearRatio(Conflict):
-    """Multiply the torque of one joint by the factor that the torques of the others ask for."""
+    """Multiply torques or positions by the factors that the other channels ask for."""
 
     name = "gear_ratio"
-    title = "Gear ratio of a torque"
+    title = "Gear ratio of a channel"
 
     def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
-        """Give the likeliest factor of every torque, where it is more than a gain's error."""
+        """Give the likeliest factor of every torque, if it is more than a gain's error, and of positions."""
         present = trials.equations(setup).reduced
         for joint in range(setup.joints):
             linear = present.linear_factor(joint)
@@ -30,6 +31,7 @@ class GearRatio(Conflict):
             factor = _likeliest(present, joint, float(firsts[np.argmin(bounds)]))
             if abs(np.log(factor)) >= RATIO.least:
                 yield factor_hypothesis(setup, joint, factor)
+        yield from position_hypotheses(self.name, setup, trials)
 
 
 def factor_hypothesis(setup: Setup, joint: int, factor: float) -> Hypothesis:

@@ -119,7 +119,8 @@ EXCLUSIONS: tuple[Exclusion, ...] = (
     ),
     Exclusion(
         "payload_change",
-        f"the mass exceeds {ADMISSIBLE.payload:g} kg or, against a reference, the parameters are no body's",
+        f"the mass exceeds {ADMISSIBLE.payload:g} kg or, against a reference or in one of several logs, the "
+        "parameters are no body's",
         "a payload is a body",
     ),
     Exclusion("link_parameters", "the difference is that of a body", "a body that was attached is a payload"),

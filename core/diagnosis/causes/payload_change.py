@@ -1,4 +1,4 @@
-"""Candidate cause: a body attached to a link or removed from it, at an instant or since the reference."""
+"""Candidate cause: a body attached to a link or removed, at an instant, in a log, or since the reference."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...dynamics.term import Term
-from ...dynamics.terms.payload_change import Payload
+from ...dynamics.terms.payload_change import Payload, PayloadOfLog
 from ...robot.model import INERTIAL_SYMBOLS, RobotModel
 from ..dataset.dataset import Dataset
 from ..thresholds.causes import ADMISSIBLE, EVENTS
@@ -19,8 +19,8 @@ _FIRST = INERTIAL_SYMBOLS.index("MX")
 
 
 def _instants_tried(grid: Sequence[Scalars], scalars: Scalars) -> float:
-    """Count the instants that are separable."""
-    return float(len(grid) * EVENTS.onsets) if scalars else float(len(grid))
+    """Count the instants that are separable; of logs all are on the grid."""
+    return float(len(grid) * EVENTS.onsets) if "time" in scalars else float(len(grid))
 
 
 @dataclass(frozen=True)
@@ -33,44 +33,54 @@ class PayloadChange(OwnJointCause):
 
     throughout: bool = False
     """Whether the body was there from before the log's begin to its end, on any link; if not, it came or went
-    at an instant that is scanned, on a link that carries no other."""
+    at an instant that is scanned, or is there in one of several logs, on a link that carries no other."""
 
     id = "payload_change"
     title = "Payload attached or removed"
     cure = "robot"
-    units = (("mass", "kg"), ("com_x", "m"), ("com_y", "m"), ("com_z", "m"), ("time", "s"))
+    units = (("mass", "kg"), ("com_x", "m"), ("com_y", "m"), ("com_z", "m"), ("time", "s"), ("log", "1"))
     experiment = "the same motion of all joints before and after the change, at least five seconds each"
     coordinate = "time"
     # The weight of a body shows its instant; its inertia hardly does.
-    traits = SearchTraits(onset={"time": slice(_FIRST, None)}, trials=_instants_tried)
+    traits = SearchTraits(onset={"time": slice(_FIRST, None)}, discrete=("log",), trials=_instants_tried)
 
     def sites(self, dataset: Dataset) -> Sequence[Site]:
-        """List the joints of the links that may carry it; several logs have no instant in common."""
-        one_clock = self.throughout or len(dataset.motions) == 1
-        return [(joint,) for joint in self._links(dataset)] if one_clock else []
+        """List the joints of the links that may carry it."""
+        return [(joint,) for joint in self._links(dataset)]
 
     def grid(self, at: Setting) -> Sequence[Scalars]:
-        """Scan the instant, where there is one."""
+        """Scan the instant, or the logs: several have no instant in common.
+
+        Of two logs, one with a body is one without beside it.
+        """
         if self.throughout:
             return NOTHING
+        logs = range(1, len(at.dataset.motions) + 1)
+        if len(logs) > 1:
+            return [{"log": float(number)} for number in (logs[1:] if len(logs) == 2 else logs)]
         instants = np.linspace(at.dataset.time.min(), at.dataset.time.max(), INSTANTS, endpoint=False)[1:]
         return [{"time": float(value)} for value in instants]
 
     def term(self, at: Setting) -> Term:
         """Give the columns."""
-        return Payload(at.joint, self._links(at.dataset)[at.joint], at.scalars.get("time", -np.inf))
+        link = self._links(at.dataset)[at.joint]
+        if "log" in at.scalars:
+            return PayloadOfLog(at.joint, link, round(at.scalars["log"]) - 1)
+        return Payload(at.joint, link, at.scalars.get("time", -np.inf))
 
     def admissible(self, solved: FittedCause) -> bool:
-        """Admit a mass that an arm may carry and, where all ten parameters are fitted throughout, a body."""
+        """Admit a mass that an arm may carry and, where a whole log shows all ten parameters, a body."""
+        whole = self.throughout or "log" in solved.scalars
         light = bool(np.isfinite(solved.values).all() and abs(solved.values[MASS]) < ADMISSIBLE.payload)
-        return light and (not self.throughout or is_body(solved.values, solved.covariance))
+        return light and (not whole or is_body(solved.values, solved.covariance))
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report mass (negative: removed), centre of mass in the link's frame if observable, and instant.
 
         A joint on which weight does not act leaves the mass at zero, and the centre open.
         """
-        body = body_of(solved.values, solved.covariance)[0] if self.throughout else solved.values
+        whole = self.throughout or "log" in solved.scalars
+        body = body_of(solved.values, solved.covariance)[0] if whole else solved.values
         joint, mass = solved.site[0], float(body[MASS])
         deviations = np.sqrt(np.maximum(np.diag(solved.covariance), 0.0))
         found = [Quantity("mass", joint, "kg", mass, float(deviations[MASS]))]
@@ -82,8 +92,11 @@ class PayloadChange(OwnJointCause):
             if deviation < ADMISSIBLE.payload_centre:
                 found.append(Quantity(f"com_{axis}", joint, "m", centre, deviation))
         when = [
-            Quantity("time", None, "s", time, solved.deviations.get("time", 0.0), is_instant=True)
-            for time in solved.scalars.values()
+            Quantity(
+                name, None, unit, solved.scalars[name], solved.deviations.get(name, 0.0), is_instant=True
+            )
+            for name, unit in (("time", "s"), ("log", "1"))
+            if name in solved.scalars
         ]
         return (*found, *when)
 
@@ -94,14 +107,18 @@ class PayloadChange(OwnJointCause):
         centre = ", ".join(f"{axis} = {coordinate.value:.2g}" for axis, coordinate in observed)
         word = "attached to" if found["mass"].value > 0.0 else "removed from"
         mass = Quantity("mass", None, "kg", abs(found["mass"].value), found["mass"].standard_deviation)
-        return (
-            f"Payload {word} the link of joint {solved.site[0]}: {mass.text} since "
-            f"{self._since(found)}" + (f", centre of mass at {centre} m in its frame" if observed else "")
+        return f"Payload {word} the link of joint {solved.site[0]}: {mass.text} {self._since(found)}" + (
+            f", centre of mass at {centre} m in its frame" if observed else ""
         )
 
     def repair(self, robot: RobotModel, joints: Site, numbers: Numbers) -> str:
         """State that the body joins as a term, or is identified with its link."""
         del robot
+        if "log" in numbers:
+            return (
+                "The description stays as it is: the model has the body as a term in log "
+                f"{number_text(numbers['log'])}"
+            )
         if "time" in numbers:
             return (
                 "The description stays as it is: the model has the body as a term from "
@@ -116,4 +133,6 @@ class PayloadChange(OwnJointCause):
         return links_by_joint(dataset.robot) if self.throughout else end_links(dataset.robot)
 
     def _since(self, found: Mapping[str, Quantity]) -> str:
-        return "the reference" if self.throughout else f"{found['time'].value:.3g} s"
+        if "log" in found:
+            return f"in log {found['log'].value:.0f}"
+        return "since the reference" if self.throughout else f"since {found['time'].value:.3g} s"

@@ -18,6 +18,7 @@ from ..search.state import SearchState
 from ..thresholds.checks import BLOCK_SCATTER, CONFIDENCE
 from .alternatives import Comparison
 from .block_scatter import block_log_p
+from .body_or_gain import gain_evidence, is_rather_a_gain
 from .command import command_evidence, contradicted_by_command
 from .confidence import confidence, predictors
 from .figure import curve
@@ -66,7 +67,9 @@ def finding(
     represented = cause.represented(at, solved) and has_known_size(cause, solved)
     tests = _tests(fitter, own, checks)
     resonance = resonance_evidence(cause.id, at, solved)
+    beside = gain_evidence(fitter, own.without, member)
     doubts = (
+        is_rather_a_gain(beside),
         min(own.margin, own.over_unnamed) < 0.0,
         not represented,
         _scatters(scattered),
@@ -92,6 +95,7 @@ def finding(
             *scattered,
             *(one for test in tests for one in test.evidence),
             *resonance,
+            *beside,
             *command_evidence(dataset.motions, cause.id, member.site),
         ),
         ambiguous_with=own.ambiguous,

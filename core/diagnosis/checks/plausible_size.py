@@ -1,8 +1,8 @@
 """Tell whether the size of a cause makes sense beside the log, whatever the likelihood says.
 
 A cause whose torque exceeds all the torque of its joint is cancelled by another column: it stands for a
-direction that the motion leaves open. A cause none of whose numbers exceeds its deviation has no size. What
-the motion contradicts, a cause says itself.
+direction that the motion leaves open. A cause none of whose sizes exceeds its deviation has none, though
+its time constant or its harmonic may be known. What the motion contradicts, a cause says itself.
 """
 
 from collections.abc import Sequence
@@ -49,8 +49,8 @@ def _stood_for(speed: Samples, effect: Samples) -> Samples:
 
 
 def _is_determined(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> bool:
-    cause, solved = chosen.members[index].cause, chosen.in_joint_units(index, fitter.dataset.robot)
-    return _exceeds_deviation(cause.quantities(solved))
+    solved = chosen.in_joint_units(index, fitter.dataset.robot)
+    return _exceeds_deviation(_sizes(chosen.members[index].cause, solved))
 
 
 def has_known_size(cause: Cause, solved: FittedCause) -> bool:
@@ -58,7 +58,17 @@ def has_known_size(cause: Cause, solved: FittedCause) -> bool:
 
     An instant says from when on it acts, and a body that is told by its mass moment alone has no mass yet.
     """
-    return _exceeds_deviation([quantity for quantity in cause.quantities(solved) if not quantity.is_instant])
+    return _exceeds_deviation([size for size in _sizes(cause, solved) if not size.is_instant])
+
+
+def _sizes(cause: Cause, solved: FittedCause) -> list[Quantity]:
+    """Leave out the scalars that shape an effect, such as a time constant or a harmonic.
+
+    An effect of no known size has a shape all the same, often with no deviation at all.
+    """
+    quantities = cause.quantities(solved)
+    sizes = [one for one in quantities if one.is_instant or one.name not in solved.scalars]
+    return sizes or list(quantities)
 
 
 def _exceeds_deviation(quantities: Sequence[Quantity]) -> bool:

@@ -16,7 +16,8 @@ from scipy.sparse import block_diag, csr_array
 from ...arrays import BlockKey, Indices, JointMask, JointSeries, Samples, UsableRows
 from ...dynamics.model import DynamicModel
 from ...dynamics.term import Term
-from ...errors import ExcitationError
+from ...errors import Evidence, ExcitationError
+from ...log.gaps import naming_gaps
 from ...log.model import JointLog
 from ...regressor.columns import ColumnPlan
 from ...robot.joint_units import prismatic_joints
@@ -132,7 +133,8 @@ def build_dataset(
         If no row is left.
     """
     motions = tuple(
-        condition(log, model.robot, _options(log, width, model.robot), blocks=blocks) for log in logs
+        condition(log, model.robot, _options(log, width, model.robot), blocks=blocks, number=number)
+        for number, log in enumerate(logs)
     )
     parts = _segments(motions, model.robot, [log.duration for log in logs])
     series = _concatenate_series(parts)
@@ -163,22 +165,28 @@ def refuse_too_little(dataset: Dataset, plan: ColumnPlan) -> None:
     rows = (dataset.clear & ~dataset.held_out[:, None]).sum(axis=0)
     needed = np.array([ROWS.per_column * len(columns) for columns in plan.columns_of])
     if (rows < needed).all():
-        counts = {"instants": rows.tolist(), "needed": needed.tolist()}
-        kinds = {defect.kind: defect for motion in dataset.motions for defect in motion.log.defects}
-        if "jitter" in kinds:
-            raise ExcitationError(
-                "the stamps scatter so much that speeds are mostly noise: no joint has enough instants that "
-                "are surely away from reversals",
-                evidence={**counts, "stamps": kinds["jitter"].statement},
-                remedy="stamp every sample when it is taken, or number the samples of an even clock and "
-                "divide by its rate",
-            )
-        raise ExcitationError(
-            "the log holds too little motion for a diagnosis: no joint has enough instants away from "
-            "standstill and reversals",
-            evidence=counts,
-            remedy="record at least ten seconds in which every joint moves, at 100 Hz or more",
+        logs = [motion.log for motion in dataset.motions]
+        with naming_gaps(logs):
+            raise _too_little({"instants": rows.tolist(), "needed": needed.tolist()}, logs)
+
+
+def _too_little(counts: Evidence, logs: Sequence[JointLog]) -> ExcitationError:
+    """Say why there are so few instants where no rows are missing."""
+    kinds = {defect.kind: defect for log in logs for defect in log.defects}
+    if "jitter" in kinds and not any(len(log.segments) > 1 for log in logs):
+        return ExcitationError(
+            "the stamps scatter so much that speeds are mostly noise: no joint has enough instants that "
+            "are surely away from reversals",
+            evidence={**counts, "stamps": kinds["jitter"].statement},
+            remedy="stamp every sample when it is taken, or number the samples of an even clock and "
+            "divide by its rate",
         )
+    return ExcitationError(
+        "the log holds too little motion for a diagnosis: no joint has enough instants away from "
+        "standstill and reversals",
+        evidence=counts,
+        remedy="record at least ten seconds in which every joint moves, at 100 Hz or more",
+    )
 
 
 def refuse_unjudged(dataset: Dataset, wide: Dataset) -> None:

@@ -30,7 +30,8 @@ class Coulomb(EachJointTerm):
         """Give the sign of the joint's velocity, or the share of its level where that is known."""
         if state.friction_share is not None:
             return np.asarray(state.friction_share[:, joint])
-        return direction(state.velocity[:, joint], self.widths[joint] if self.widths else 0.0)
+        width = self.widths[joint] if self.widths else 0.0
+        return state.by_stamps(lambda velocity: direction(velocity[:, joint], width))
 
 
 def direction(velocity: Samples, width: float) -> Samples:

@@ -6,6 +6,7 @@ Staubli wrists 5-6, as in Janot, Vandanjon & Gautier, IEEE TCST 22(1), 2014.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -48,7 +49,7 @@ class GearCoupling(Term):
         for index, (coupling, width) in enumerate(zip(robot.couplings, widths, strict=True)):
             motor = motor_speed(coupling, state)
             if state.friction_share is None:
-                dry = direction(motor, width)
+                dry = state.by_stamps(partial(_motor_direction, coupling, width))
             else:
                 dry = state.friction_share[:, len(robot.joints) + index]
             columns = (_weighted_sum(coupling, state.acceleration), motor, dry)
@@ -64,6 +65,10 @@ def coupling_widths(robot: RobotModel, widths: Sequence[float]) -> tuple[float, 
 def motor_speed(coupling: Coupling, state: MotionState) -> Samples:
     """Give the speed of a coupled motor, rad/s."""
     return _weighted_sum(coupling, state.velocity)
+
+
+def _motor_direction(coupling: Coupling, width: float, velocity: np.ndarray) -> Samples:
+    return direction(_weighted_sum(coupling, velocity), width)
 
 
 def _weighted_sum(coupling: Coupling, values: np.ndarray) -> Samples:

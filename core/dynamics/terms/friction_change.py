@@ -35,4 +35,5 @@ class FrictionChange(OneJointTerm):
     def columns(self, state: MotionState) -> list[Samples]:
         """Give velocity, its sign, and one."""
         velocity = state.velocity[:, self.joint - 1]
-        return [velocity, direction(velocity, self.width), np.ones_like(velocity)]
+        dry = state.by_stamps(lambda speeds: direction(speeds[:, self.joint - 1], self.width))
+        return [velocity, dry, np.ones_like(velocity)]

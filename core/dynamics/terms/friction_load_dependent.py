@@ -30,4 +30,4 @@ class LoadFriction(OneJointTerm):
     def series(self, robot: RobotModel, state: MotionState) -> Series:
         """Give sign(v) |load|, with the load on this robot."""
         load = Gear(self.believed, self.joint, self.motor_inertia).load(state, robot)
-        return np.array([np.sign(state.velocity[:, self.joint - 1]) * np.abs(load)])
+        return np.array([state.direction[:, self.joint - 1] * np.abs(load)])

@@ -24,6 +24,6 @@ class PositionFriction(OneJointTerm):
 
     def columns(self, state: MotionState) -> list[Samples]:
         """Give cosine and sine of h (q - centre), each times sign(v)."""
-        sign = np.sign(state.velocity[:, self.joint - 1])
+        sign = state.direction[:, self.joint - 1]
         angle = self.harmonic * (state.position[:, self.joint - 1] - self.centre)
         return [sign * np.cos(angle), sign * np.sin(angle)]

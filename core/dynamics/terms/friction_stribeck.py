@@ -24,4 +24,4 @@ class Stribeck(OneJointTerm):
     def columns(self, state: MotionState) -> list[Samples]:
         """Give sign(v) exp(-(v / vs)^2)."""
         velocity = state.velocity[:, self.joint - 1]
-        return [np.sign(velocity) * np.exp(-((velocity / self.stribeck_velocity) ** 2))]
+        return [state.direction[:, self.joint - 1] * np.exp(-((velocity / self.stribeck_velocity) ** 2))]

@@ -27,7 +27,7 @@ class TemperatureFriction(OneJointTerm):
         velocity = state.velocity[:, self.joint - 1]
         if state.temperature is None:
             return [np.zeros_like(velocity), np.zeros_like(velocity)]
-        return _weighted(velocity, state.temperature[:, self.joint - 1] - self.reference)
+        return _weighted(state, self.joint - 1, state.temperature[:, self.joint - 1] - self.reference)
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,8 +48,8 @@ class WarmUpFriction(OneJointTerm):
         velocity = state.velocity[:, self.joint - 1]
         if state.time is None:
             return [np.zeros_like(velocity), np.zeros_like(velocity)]
-        return _weighted(velocity, -np.expm1(-(state.time - self.start) / self.time_constant))
+        return _weighted(state, self.joint - 1, -np.expm1(-(state.time - self.start) / self.time_constant))
 
 
-def _weighted(velocity: Samples, warmth: Samples) -> list[Samples]:
-    return [np.sign(velocity) * warmth, velocity * warmth]
+def _weighted(state: MotionState, joint: int, warmth: Samples) -> list[Samples]:
+    return [state.direction[:, joint] * warmth, state.velocity[:, joint] * warmth]

@@ -1,4 +1,4 @@
-"""Give the torque of a body that is attached to a link from an instant on: ten columns times a step.
+"""Give the torque of a body attached to a link from an instant on, or in one log: ten columns times a step.
 
 The ten parameters are those of the difference of bodies, in the link's frame; for a removed body they are
 negative. A step before the first instant is a body that was there throughout. Source: Khalil & Dombre
@@ -39,6 +39,24 @@ class Payload(AllJointsTerm):
         if state.time is None:
             return list(columns)
         return list(columns * (state.time >= self.begin)[:, None])
+
+
+@dataclass(frozen=True, eq=False)
+class PayloadOfLog(AllJointsTerm):
+    """Model a body fixed to a link (number from 1) in one of several logs (from 0), of either sign."""
+
+    link: int
+    log: int
+    symbols = Payload.symbols
+    kind = Payload.kind
+    loads = True
+
+    def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
+        """Give the torque per unit of the body's ten parameters; none outside of its log."""
+        columns = body_torques(robot, self.link, state)
+        if state.log is None:
+            return [np.zeros_like(column) for column in columns]
+        return list(columns * (state.log == self.log)[:, None])
 
 
 @lru_cache(maxsize=8)

@@ -40,3 +40,20 @@ class CommonGain(AllJointsTerm):
         """Give the predicted torque."""
         del robot
         return [self.believed.applied(state)]
+
+
+@dataclass(frozen=True, eq=False)
+class GainOfLog(AllJointsTerm):
+    """Model the same relative gain error of all torque channels in one of several logs (from 0)."""
+
+    believed: Prediction
+    log: int
+    symbols = CommonGain.symbols
+    kind = CommonGain.kind
+    channel = True
+
+    def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
+        """Give the predicted torque; none outside of its log."""
+        del robot
+        torque = self.believed.applied(state)
+        return [torque * (0.0 if state.log is None else (state.log == self.log)[:, None])]

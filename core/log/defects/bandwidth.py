@@ -15,6 +15,8 @@ SHORTEST_WINDOW = 32
 WINDOWS_PER_STRETCH = 2
 POWER_SHARE = 0.95
 FEWEST_SAMPLES_PER_PERIOD = 10.0
+UNEVEN = 0.01
+"""Steps that differ by less than this share of their median count as even."""
 SMALLEST_INCREMENT = 0.01
 """Root mean square increment as a share of the range: below this, quick motion is noise and not motion."""
 
@@ -30,9 +32,7 @@ class Bandwidth:
 
     def update(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
-        steps = np.diff(stretch.time[stretch.first_new :])
-        even = np.median(steps) / steps  # an uneven clock would modulate what is a steady motion
-        increments = even * np.diff(stretch.position[:, stretch.first_new :], axis=1)
+        increments = np.diff(_on_even_clock(stretch), axis=1)
         if not self._window:
             self._window = 1 << int(np.log2(min(increments.shape[1], LONGEST_WINDOW)))
             self._power = np.zeros((len(increments), self._window // 2 + 1))
@@ -48,9 +48,21 @@ class Bandwidth:
         """Give the frequency (Hz) below which the velocity's power lies, of every joint that moves."""
         if self._window < SHORTEST_WINDOW or not self._increments:
             return {}
-        frequencies = np.fft.rfftfreq(self._window, facts.step)
         quick = np.sqrt(self._squares / self._increments) > SMALLEST_INCREMENT * facts.span("position")
-        moving = np.flatnonzero(quick & (self._power.sum(axis=1) > 0.0))
+        return {joint: edge for joint, edge in self._of_moving(facts).items() if quick[joint]}
+
+    def highest(self, facts: Facts) -> float:
+        """Give the highest of these frequencies (Hz), of slow joints as well; 0 where none is known.
+
+        What a slow joint's noise adds makes it higher, never lower.
+        """
+        if self._window < SHORTEST_WINDOW or not self._increments:
+            return 0.0
+        return max(self._of_moving(facts).values(), default=0.0)
+
+    def _of_moving(self, facts: Facts) -> dict[int, float]:
+        frequencies = np.fft.rfftfreq(self._window, facts.step)
+        moving = np.flatnonzero(self._power.sum(axis=1) > 0.0)
         return {joint: self._edge(joint, frequencies) for joint in map(int, moving) if facts.travels(joint)}
 
     def _edge(self, joint: int, frequencies: Samples) -> float:
@@ -70,3 +82,14 @@ class Bandwidth:
                 )
                 found.append(Defect("slow_rate", "position", joint + 1, facts.samples, (), statement))
         return found
+
+
+def _on_even_clock(stretch: Stretch) -> Series:
+    """Interpolate the new positions on an even clock: an uneven one modulates what is a steady motion."""
+    time, position = stretch.time[stretch.first_new :], stretch.position[:, stretch.first_new :]
+    steps = np.diff(time)
+    step = float(np.median(steps))
+    if np.ptp(steps) <= UNEVEN * step:
+        return position
+    grid = np.arange(time[0], time[-1], step)[: len(time)]
+    return np.array([np.interp(grid, time, values) for values in position])

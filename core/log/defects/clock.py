@@ -19,7 +19,7 @@ SHORT_GAP_S = 0.025
 """A gap up to this length (s) is bridged: arms do not move faster than a few hertz."""
 BRIDGED_STEPS = 5.0
 BRIDGED_PERIODS = 0.1
-"""On a slow bus a gap of so many median steps is bridged as well, up to this share of the motion's period: a
+"""On a slow bus a gap of so many mean steps is bridged as well, up to this share of the motion's period: a
 motion sampled ten times in a period is known between its samples."""
 UNEVEN = 0.1
 """A step that differs from the median by more than this share is counted as uneven."""
@@ -36,7 +36,7 @@ def longest_bridge(step: float, motion_hz: float) -> float:
     Parameters
     ----------
     step
-        Median step of the stamps, s.
+        Mean step of the stamps, s: where rows were lost, what is left is sampled more slowly.
     motion_hz
         Frequency up to which the motion reaches; 0 where it is not known.
 
@@ -93,6 +93,12 @@ class Clock:
     def step(self) -> float:
         """Median step in s."""
         return float(np.median(np.concatenate(self._kept)))
+
+    @property
+    def mean_step(self) -> float:
+        """Mean step in s, in which a pause counts no more than the longest step that may be bridged."""
+        steps = np.concatenate(self._kept)
+        return float(np.mean(np.minimum(steps, BRIDGED_STEPS * np.median(steps))))
 
     def segments(self) -> tuple[tuple[int, int], ...]:
         """Give (start, stop) rows between the gaps."""

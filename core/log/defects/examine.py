@@ -102,7 +102,7 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
         units=layout.si_units(),
     )
     check_sequence(facts)
-    clock.bridge = longest_bridge(facts.step, max(bandwidth.edges(facts).values(), default=0.0))
+    clock.bridge = longest_bridge(clock.mean_step, bandwidth.highest(facts))
     found = [
         *spikes.defects(facts),
         *replays.defects(facts),

@@ -80,7 +80,8 @@ class SimulatedMotion:
         """
         measured, followed = tee(self.motion.tiles())
         for tile, played in zip(measured, self.along(followed), strict=True):
-            yield replace(tile, state=replace(played.state, temperature=tile.state.temperature))
+            state = replace(played.state, temperature=tile.state.temperature, log=tile.state.log)
+            yield replace(tile, state=state)
 
     def of(self, mechanism: Mechanism) -> "SimulatedMotion":
         """Give the motion of another robot, driven by the same source."""

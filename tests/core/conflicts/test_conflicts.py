@@ -393,7 +393,7 @@ def test_sound_measured_robots_have_no_conflict(unit):
     assert find_conflicts(Setup.as_described(robot), Trials(sampled(motions, HoldOut().chosen(1)))) == ()
 
 
-@pytest.mark.parametrize("way", ["channels_swapped", "mounting"])
+@pytest.mark.parametrize("way", ["channels_swapped", "mounting", "motor_side"])
 def test_a_conflict_on_a_measured_robot_is_named(way):
     robot, log = measured_robot("ur10e_open"), measured_log("ur10e_open", "fourier_30s_12h")
     spoilt = SPOILERS[way](robot, log, np.random.default_rng(4))

@@ -5,7 +5,9 @@ import pytest
 
 from tests.core.diagnosis.made_up import JOINT, candidate, made_up, on_joint
 from tests.core.diagnosis.scenes import Scene, fitter_of, measured_arm
-from veritorque.core.diagnosis.checks.plausible_size import has_plausible_size
+from veritorque.core.diagnosis.causes.protocol import FittedCause
+from veritorque.core.diagnosis.causes.registry import BY_ID
+from veritorque.core.diagnosis.checks.plausible_size import has_known_size, has_plausible_size
 
 STIFFNESS, FAR = 3.0, 200.0
 """N m/rad of a spring, and the angle, rad, that its column is counted from."""
@@ -44,3 +46,18 @@ def test_a_torque_that_another_column_cancels_has_no_plausible_size(sprung: Scen
         return [spring + 1e4 * rotor]
 
     assert not sensible(sprung, make)
+
+
+SHAPED = {"friction_temperature": 2, "torque_offset_drift": 1}
+"""Causes with a time constant, and the number of their sizes."""
+
+
+@pytest.mark.parametrize("name", SHAPED)
+@pytest.mark.parametrize(("ratio", "known"), [(0.95, False), (5.0, True)])
+def test_a_time_constant_does_not_stand_for_a_size_as_large_as_its_deviation(name: str, ratio: float, known):
+    count = SHAPED[name]
+    values = 0.2 * np.ones(count)
+    covariance = np.diag((values / ratio) ** 2)
+    for deviations in ({}, {"time_constant": 1.0}):
+        solved = FittedCause((1,), values, covariance, {"time_constant": 9.0}, deviations)
+        assert has_known_size(BY_ID[name], solved) is known
