@@ -17,7 +17,7 @@ from .trial import Trials
 def refined(path: Path, described: Setup, trials: Trials) -> Path:
     """Find the direction of gravity and the factors of torques anew where they are not the last step."""
     path = _with_gravity_refined(path, described, trials)
-    own = [step.hypothesis for step in path if step.hypothesis.conflict == GearRatio.name]
+    own = [step.hypothesis for step in path if step.hypothesis.key[::2] == (GearRatio.name, "torque")]
     channels = {one.setup.assignment.torque.source[one.joints[0] - 1] for one in own}
     for channel in sorted(channels) if len(path) > 1 else ():
         path = _with_factors_refined(path, channel, described, trials)

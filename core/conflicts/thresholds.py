@@ -119,6 +119,9 @@ class Ratio:
     which it can."""
     least_position: float = np.log(1.1)
     """Logarithm below which a factor of a position is no gear's and no unit's."""
+    least_span: float = 0.5
+    """Radians that one of the joints moves at least with these factors. Gravity is a spring's torque within a
+    hundredth where all move less: sin x / x at a quarter."""
     next_to: float = 0.6
     """Logarithm on either side of the best of these factors within which it is refined."""
     apart: float = 1.0

@@ -25,7 +25,7 @@ def naming_gaps(logs: Sequence[JointLog]) -> Iterator[None]:
         raise type(error)(
             f"{error.cause}: rows are missing, which cuts the log into {stretches} stretches",
             evidence={**error.evidence, "gaps": gaps},
-            remedy=REMEDY,
+            remedy=f"{REMEDY}; otherwise {error.remedy}",
         ) from None
 
 

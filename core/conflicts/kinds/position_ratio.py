@@ -20,7 +20,7 @@ from ..trial import Trials
 
 
 def position_hypotheses(conflict: str, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
-    """Give the likeliest factor of each position, one factor of all, and each joint's own.
+    """Give the likeliest factor of all positions alike, each joint's own, and that of one that moves too far.
 
     None where positions have been scaled already.
     """
@@ -29,7 +29,7 @@ def position_hypotheses(conflict: str, setup: Setup, trials: Trials) -> Iterator
     search = _Search.over(setup, trials)
     if not search.joints:
         return
-    alone = [search.scanned(place) for place in range(len(search.joints))]
+    alone = [search.scanned(int(place)) for place in np.flatnonzero(search.most < 0.0)]
     found = [search.scanned_alike(), *alone] if len(search.joints) > 1 else alone
     promising = [trial for trial in found if search.gain(trial) > RATIO.promising]
     for trial in promising:
@@ -121,7 +121,8 @@ class _Search:
     def hypothesis(self, conflict: str, logarithms: Vector) -> Iterator[Hypothesis]:
         """Say that the positions of the joints whose logarithm is not zero have these factors."""
         places = np.flatnonzero(logarithms)
-        if np.abs(logarithms).max(initial=0.0) < RATIO.least_position:
+        spans = UNIT.least_span * np.exp((logarithms - self.least)[places])
+        if np.abs(logarithms).max(initial=0.0) < RATIO.least_position or spans.max() < RATIO.least_span:
             return
         alike = len(places) > 1 and bool(np.ptp(logarithms[places]) == 0.0)
         joints = tuple(self.joints[place] + 1 for place in places)

@@ -49,8 +49,8 @@ def _filtered(
 
 
 def _no_columns(entries: Sequence[Entry], rows: int) -> dict[int, np.ndarray]:
-    """Give a table per joint, wide enough for the last parameter: every one acts somewhere."""
-    width = 1 + max(parameter for _, parameter in entries)
+    """Give a table per joint, wide enough for the last parameter that acts."""
+    width = max((1 + parameter for _, parameter in entries), default=0)
     return {joint: np.zeros((rows, width)) for joint in dict(entries)}
 
 

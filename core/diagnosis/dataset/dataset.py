@@ -171,9 +171,9 @@ def refuse_too_little(dataset: Dataset, plan: ColumnPlan) -> None:
 
 
 def _too_little(counts: Evidence, logs: Sequence[JointLog]) -> ExcitationError:
-    """Say why there are so few instants where no rows are missing."""
+    """Say why there are so few instants, as far as it is not for missing rows."""
     kinds = {defect.kind: defect for log in logs for defect in log.defects}
-    if "jitter" in kinds and not any(len(log.segments) > 1 for log in logs):
+    if "jitter" in kinds:
         return ExcitationError(
             "the stamps scatter so much that speeds are mostly noise: no joint has enough instants that "
             "are surely away from reversals",

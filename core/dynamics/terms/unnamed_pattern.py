@@ -41,16 +41,12 @@ class Trace(OneJointTerm):
     kind = "unlisted"
     has_memory = True
 
-    @property
-    def count(self) -> int:
-        """Count its columns."""
-        return _COUNTS[self.pattern]
-
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List a number per column."""
         del robot
         return tuple(
-            Parameter(f"trace_{index}", self.joint, self.joint, "N m", None) for index in range(self.count)
+            Parameter(f"trace_{index}", self.joint, self.joint, "N m", None)
+            for index in range(_COUNTS[self.pattern])
         )
 
     @property
