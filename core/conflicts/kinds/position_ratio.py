@@ -128,6 +128,8 @@ class _Search:
         joints = tuple(self.joints[place] + 1 for place in places)
         times = np.exp(-logarithms[places][:1] if alike else -logarithms[places])
         untold = () if alike else self._untold(logarithms, places)
+        if not self.is_expected and not _are_gears(times) and not _are_gears(np.degrees(times)):
+            return
         known = f" (these logs do not tell the factor of {_numbered(untold)})" if untold else ""
         whose = _whose(joints)
         yield Hypothesis(
@@ -169,9 +171,14 @@ def _reach(setup: Setup, joint: int) -> float:
 def _in_degrees(times: JointVector) -> str:
     """Give the ratios of motors' angles in rad that were declared as degrees, where they are a gear's."""
     ratios = np.degrees(times)
-    if ratios.min() < RATIO.gears[0] or ratios.max() > RATIO.gears[1]:
-        return ""
-    return f"; {_list(ratios)} times if the numbers are radians that were declared as degrees"
+    words = f"; {_list(ratios)} times if the numbers are radians that were declared as degrees"
+    return words if _are_gears(ratios) else ""
+
+
+def _are_gears(ratios: JointVector) -> bool:
+    """Tell whether most of them are ratios that gears of robots have: a log may not tell all."""
+    least, most = RATIO.gears
+    return bool(least <= np.median(ratios) <= most)
 
 
 def _whose(joints: tuple[int, ...]) -> str:

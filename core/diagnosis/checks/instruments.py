@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 from scipy.special import fdtrc
 
-from ...arrays import EquationRows, Matrix, Vector, Weights
+from ...arrays import EquationRows, Indices, Matrix, Vector, Weights
 from ..dataset.smooth_motion import with_smooth_motion
 from ..residual.blocks import row_blocks
 from ..search.fitter import HypothesisFitter
@@ -35,12 +35,12 @@ class Instruments:
 
     def log_p(self, index: int) -> float:
         """Give the log of the p-value of a member's size, by the scatter between blocks."""
-        own = self.whole.columns_of(index)
+        own = self._own(index)
         return _log_p(self.values[own], self._changes[:, own])
 
     def log_p_of_difference(self, index: int) -> float:
         """Give the log of the p-value of what least squares finds more or less of a member."""
-        own = self.whole.columns_of(index)
+        own = self._own(index)
         return _log_p(self.whole.fit.values[own] - self.values[own], self._changes[:, own])
 
     def change(self, index: int) -> float:
@@ -48,11 +48,17 @@ class Instruments:
 
         Coefficients count in units of their scatter between blocks.
         """
-        own = self.whole.columns_of(index)
+        own = self._own(index)
         found = self.whole.fit.values[own]
         scale = np.sqrt(np.maximum(np.sum(self._changes[:, own] ** 2, axis=0), np.finfo(float).tiny))
         size = max(float(np.linalg.norm(found / scale)), np.finfo(float).tiny)
         return float(np.linalg.norm((self.values[own] - found) / scale) / size)
+
+    def _own(self, index: int) -> Indices:
+        """Give the places of a member's coefficients, those of columns without motion left out."""
+        fit = self.whole.fit
+        own = np.arange(len(fit.values))[self.whole.columns_of(index)]
+        return np.asarray(own[fit.shown[own]])
 
     @cached_property
     def _instruments(self) -> tuple[EquationRows, ...]:

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.linalg import cho_factor
 from scipy.linalg.lapack import dpotrs
 
-from ...arrays import JointVector, Matrix, SquareMatrix, Vector, Weights
+from ...arrays import JointVector, Mask, Matrix, SquareMatrix, Vector, Weights
 from ...estimate.gaussian_prior import GaussianPrior
 from ..thresholds.regression import COLUMNS, NOISE
 from .ar_noise import ARNoise, fit_ar_noise
@@ -42,6 +42,8 @@ class Fit:
     factor: SquareMatrix
     """Lower Cholesky factor of the columns' Gram matrix, scaled by `scale`."""
     scale: Vector
+    shown: Mask
+    """Columns that hold more than rounding; the others have no coefficient."""
     by_joint: JointVector
     """Log-likelihood of every joint's rows, noise model included."""
     prior: GaussianPrior | None = None
@@ -211,7 +213,7 @@ def _solve(
     by_joint = np.array(
         [-0.5 * float(rest @ rest) - part.log_deviations for part, rest in zip(joints, left, strict=True)]
     )
-    return Fit(joints, left, values, factor, scale, by_joint, prior, plain)
+    return Fit(joints, left, values, factor, scale, shown, by_joint, prior, plain)
 
 
 def _solve_scaled(factor: SquareMatrix, scale: np.ndarray, right: np.ndarray) -> np.ndarray:

@@ -91,5 +91,6 @@ def _on_even_clock(stretch: Stretch) -> Series:
     step = float(np.median(steps))
     if np.ptp(steps) <= UNEVEN * step:
         return position
-    grid = np.arange(time[0], time[-1], step)[: len(time)]
+    whole = min(len(time), int((time[-1] - time[0]) / step) + 1)
+    grid = time[0] + step * np.arange(whole)
     return np.array([np.interp(grid, time, values) for values in position])

@@ -6,14 +6,17 @@ from functools import cache
 import numpy as np
 import pytest
 
+from tests.conflicts.score import PLAIN
 from tests.core.diagnosis.scenes import fitter_of, recording, scene_of
+from tests.hidden.plan import Order, drawn
 from veritorque.core.diagnosis.causes.joint_elasticity import JointElasticity
 from veritorque.core.diagnosis.causes.protocol import Cause
 from veritorque.core.diagnosis.causes.spring_compensator import SpringCompensator
 from veritorque.core.diagnosis.checks.instruments import Instruments
 from veritorque.core.diagnosis.dataset.smooth_motion import with_smooth_motion
-from veritorque.core.diagnosis.thresholds.checks import POSITION_NOISE
+from veritorque.core.diagnosis.thresholds.checks import CONFIDENCE, POSITION_NOISE
 from veritorque.core.estimate.gaussian_prior import GaussianPrior
+from veritorque.core.study import IdentifyRequest, diagnose
 
 JOINT, STIFFNESS = 2, 1.5
 NOISY = 2e-5
@@ -79,3 +82,13 @@ def test_a_smooth_motion_keeps_its_rows_and_loses_the_noise():
     )
     assert np.array_equal(smooth.torque, noisy.torque)
     assert after < 0.05 * before
+
+
+def test_columns_without_motion_say_nothing_of_a_size():
+    """Of a payload's ten columns four act on a planar arm; the others hold rounding, which is no difference."""
+    case = drawn(Order("single", 510100003, cause="payload_change", strength=1.0))
+    (found,) = diagnose(IdentifyRequest(case.believed, (case.log,), PLAIN))["diagnosis"]["findings"]
+    assert found["cause"] == "payload_change"
+    (difference,) = [one for one in found["evidence"] if one["statistic"] == "log10 p of the difference"]
+    assert difference["value"] > np.log10(POSITION_NOISE.level)
+    assert found["confidence"] > CONFIDENCE.doubtful
