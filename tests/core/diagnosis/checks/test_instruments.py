@@ -85,7 +85,7 @@ def test_a_smooth_motion_keeps_its_rows_and_loses_the_noise():
 
 
 def test_columns_without_motion_say_nothing_of_a_size():
-    """Of a payload's ten columns four act on a planar arm; the others hold rounding, which is no difference."""
+    """Of a payload's ten columns four act on a planar arm; rounding in the others is no difference."""
     case = drawn(Order("single", 510100003, cause="payload_change", strength=1.0))
     (found,) = diagnose(IdentifyRequest(case.believed, (case.log,), PLAIN))["diagnosis"]["findings"]
     assert found["cause"] == "payload_change"
