@@ -13,6 +13,7 @@ from scipy.optimize import fmin_powell, minimize_scalar
 
 from ...arrays import JointVector, Vector
 from ...log.channels import POSITIONS
+from ...log.columns.assignment import Assignment
 from ..conflict import Hypothesis
 from ..setup import Setup
 from ..thresholds import RATIO, UNIT
@@ -22,9 +23,10 @@ from ..trial import Trials
 def position_hypotheses(conflict: str, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
     """Give the likeliest factor of all positions alike, each joint's own, and that of one that moves too far.
 
-    None where positions have been scaled already.
+    None where a channel has been assigned otherwise already: factors so large come first, and beside another
+    correction they stand for a spring.
     """
-    if any(abs(factor) != 1.0 for factor in setup.assignment.position.factor):
+    if setup.assignment != Assignment.as_measured(setup.joints):
         return
     search = _Search.over(setup, trials)
     if not search.joints:

@@ -43,6 +43,10 @@ def test_a_reversed_torque_is_named_beside_a_spring_and_no_wrong_table(seed, rob
     assert named(seed, robot, reversed_joint=joint) == [("torque_sign", joint)]
 
 
+def test_no_motors_ratios_are_named_beside_exchanged_channels_in_the_place_of_a_spring():
+    assert named(4008, "planar-2", reversed_joint=2) == []
+
+
 def test_a_set_up_takes_parts_of_another(arm):
     plain = Setup.as_described(arm)
     other = plain.with_gravity(np.array([9.81, 0.0, 0.0]))
