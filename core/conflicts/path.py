@@ -1,5 +1,6 @@
 """Hold conflicts that were found one after the other, and compare what they lead to."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -27,8 +28,12 @@ Path = tuple[FoundConflict, ...]
 
 def cost(path: Path) -> float:
     """Give the last error, to which each correction that is not expected adds what one has to gain."""
-    corrections = sum(step.hypothesis.corrections for step in path if not step.hypothesis.expected)
-    return path[-1].after.score + DECISION.least_gain * corrections
+    return path[-1].after.score + price([step.hypothesis for step in path])
+
+
+def price(corrections: Sequence[Hypothesis]) -> float:
+    """Give what the size of each that is not expected has to gain, all together."""
+    return DECISION.least_gain * sum(own.corrections for own in corrections if not own.expected)
 
 
 def unsure(path: Path) -> Path:

@@ -17,7 +17,7 @@ from ..robot.joint_units import joint_unit
 from ..robot.model import Parameter, RobotModel
 from ..signals.state import MotionState
 from .conflict import Hypothesis
-from .path import FoundConflict, Margins, Path, unsure
+from .path import FoundConflict, Margins, Path, price, unsure
 from .refinement import judged_again
 from .samples import Samples
 from .setup import Part, Setup
@@ -112,8 +112,8 @@ class _Fewer:
         return cls(steps, _score_with_forces(steps[-1][1].setup if steps else described, trials))
 
     def cost(self) -> float:
-        """Give the score, to which each correction adds what one has to gain."""
-        return self.score + DECISION.least_gain * len(self.steps)
+        """Give the score, to which the corrections add what they have to gain."""
+        return self.score + price([own for _, own in self.steps])
 
     def path(self, trials: Trials) -> Path:
         """Fit the corrections again, one after the other; none where one cannot be fitted."""

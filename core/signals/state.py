@@ -41,6 +41,10 @@ class MotionState:
             return self
         return MotionState(self.link_position, self.link_velocity, self.link_acceleration, self.time)
 
+    def in_log(self, number: int) -> Samples:
+        """Give 1 at instants of a log (from 0), 0 elsewhere."""
+        return np.zeros(len(self.position)) if self.log is None else np.where(self.log == number, 1.0, 0.0)
+
     @property
     def direction(self) -> JointSeries:
         """Give the signs of the velocities as the torque has them (see `by_stamps`)."""

@@ -53,10 +53,7 @@ class PayloadOfLog(AllJointsTerm):
 
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the torque per unit of the body's ten parameters; none outside of its log."""
-        columns = body_torques(robot, self.link, state)
-        if state.log is None:
-            return [np.zeros_like(column) for column in columns]
-        return list(columns * (state.log == self.log)[:, None])
+        return list(body_torques(robot, self.link, state) * state.in_log(self.log)[:, None])
 
 
 @lru_cache(maxsize=8)

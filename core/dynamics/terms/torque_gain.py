@@ -55,5 +55,4 @@ class GainOfLog(AllJointsTerm):
     def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
         """Give the predicted torque; none outside of its log."""
         del robot
-        torque = self.believed.applied(state)
-        return [torque * (0.0 if state.log is None else (state.log == self.log)[:, None])]
+        return [self.believed.applied(state) * state.in_log(self.log)[:, None]]
