@@ -18,6 +18,7 @@ ConflictName = Literal[
     "time_base",
     "unit",
     "gear_ratio",
+    "other_signal",
 ]
 Channel = Annotated[Literal["torque", "position", "both"] | None, about("null if the description is wrong")]
 

@@ -57,7 +57,7 @@ def check(
     if not doubted:
         return Conflicts((), factors, searched=False)
     trials = Trials(sampled(problem.motions, problem.held_out), terms)
-    described = Setup.as_described(problem.base.model.robot)
+    described = Setup(problem.base.model.robot, trials.samples.as_measured)
     factor = next((factor for factor in factors if factor is not None), None)
     if factor is None:
         found = find_conflicts(described, trials)

@@ -67,12 +67,25 @@ class Equations:
 
     def errors(self, base: BaseParameters, *, judged: bool) -> JointVector:
         """Give the RMS residual over the RMS torque per joint; one for a joint without torque."""
+        parts = self._left(base, judged=judged)
+        return np.array([_relative(left, torque) for left, torque in parts])
+
+    def unpredicted(self, base: BaseParameters) -> JointVector:
+        """Give the RMS residual over how much the torque varies, per joint, on the rows that judge."""
+        parts = self._left(base, judged=True)
+        return np.array([_relative(left, torque - _mean(torque)) for left, torque in parts])
+
+    def _left(self, base: BaseParameters, *, judged: bool) -> list[tuple[Vector, Vector]]:
+        """Give what is left of the joints' torques, and these."""
         rows = self.regressor.judged if judged else self.regressor.fitted
         parts = zip(rows.columns, self.regressor.plan.columns_of, rows.torque(self.channels), strict=True)
-        pairs = [(base[columns] @ own - torque, torque) for own, columns, torque in parts]
-        return np.array([_relative(left, torque) for left, torque in pairs])
+        return [(base[columns] @ own - torque, torque) for own, columns, torque in parts]
 
 
 def _relative(left: Vector, torque: Vector) -> float:
     whole = float(torque @ torque)
     return float(np.sqrt(left @ left / whole)) if whole > 0.0 else 1.0
+
+
+def _mean(torque: Vector) -> float:
+    return float(torque.mean()) if len(torque) else 0.0

@@ -40,22 +40,28 @@ class Reduced:
         """Weigh the joints by what least squares leaves of them, in two rounds; see `bound`.
 
         Each round makes the mean logarithm of the errors smaller, towards one of several minima. So it begins
-        from equal weights and from equal shares of the torques, and ends with what leaves less.
+        from equal weights and from equal shares of the torques, and ends with what leaves less. The
+        noise of a torque that was not measured is infinite.
         """
         return self._weighed[0]
 
     @property
     def bound(self) -> np.ndarray:
-        """Give the mean logarithm of the errors that least squares leaves: no constraint makes it less."""
+        """Give the mean logarithm of the errors that least squares leaves: no constraint makes it less.
+
+        That of a joint without torque is one: nothing of it is predicted.
+        """
         return self._weighed[1]
 
     @cached_property
     def _weighed(self) -> tuple[np.ndarray, np.ndarray]:
-        noise = np.stack([np.ones_like(self.torques), np.sqrt(np.maximum(self.torques, 1e-24) / self.rows)])
+        measured = self.torques > 0.0
+        whole = np.where(measured, self.torques, np.inf)
+        noise = np.stack([np.where(measured, 1.0, np.inf), np.sqrt(np.maximum(whole, 1e-24) / self.rows)])
         for _ in range(_REWEIGHTINGS):
-            left = self._left(noise)
+            left = np.where(measured, self._left(noise), np.inf)
             noise = np.sqrt(np.maximum(left, np.maximum(1e-12 * self.torques, 1e-24)) / self.rows)
-        errors = np.sqrt(self._left(noise) / np.where(self.torques > 0.0, self.torques, 1.0))
+        errors = np.where(measured, np.sqrt(self._left(noise) / np.where(measured, self.torques, 1.0)), 1.0)
         bounds = mean_log(errors)
         best = bounds[1] < bounds[0]
         return np.where(best[..., None], noise[1], noise[0]), np.where(best, bounds[1], bounds[0])

@@ -12,6 +12,7 @@ from .kinds.gear_ratio import GearRatio
 from .kinds.gravity_compensated import GravityCompensated
 from .kinds.link_length import LinkLength
 from .kinds.mounting import Mounting
+from .kinds.other_signal import OtherSignal
 from .kinds.position_sign import PositionSign
 from .kinds.torque_sign import TorqueSign
 from .kinds.unit import Unit
@@ -26,6 +27,7 @@ _LISTED: tuple[Conflict, ...] = (
     ZeroQuarterTurn(),
     Convention(),
     LinkLength(),
+    OtherSignal(),
     Unit(),
     GearRatio(),
 )

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays import BlockKey, InstantSeries, JointMask, JointSeries, SampleMask
+from ..arrays import BlockKey, InstantSeries, JointMarks, JointMask, JointSeries, SampleMask
 from ..log.columns.assignment import Assignment
 from ..signals.condition import Motion
 from ..signals.parallel import Tile
@@ -27,6 +27,9 @@ class Samples:
     direction: JointSeries
     """Sign of the velocity, filtered: the sign of a filtered velocity is another thing."""
     usable: JointMask
+    """Whether a joint moves there, for one."""
+    measured: JointMarks
+    """Whether a joint's torque was measured at all."""
     judged: SampleMask
     """Rows that no trial is fitted to."""
     independent: float
@@ -51,6 +54,14 @@ class Samples:
         return replace(self, **{name: getattr(self, name)[wanted] for name in SERIES})
 
     @property
+    def as_measured(self) -> Assignment:
+        """Take every channel as it was measured; a torque that was not, for none."""
+        joints = len(self.measured)
+        own = Assignment.as_measured(joints)
+        silent = np.flatnonzero(~self.measured).tolist()
+        return replace(own, torque=own.torque.scaled(0.0, *silent))
+
+    @property
     def state(self) -> MotionState:
         """Give the motion as terms of a model take it."""
         return MotionState(self.position, self.velocity, self.acceleration, np.zeros(len(self.position)))
@@ -63,8 +74,14 @@ def sampled(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Sampl
         part for number, motion in enumerate(motions) for part in _taken(motion, number, held_out, stride)
     ]
     series = {name: np.concatenate([part[name] for part in parts]) for name in SERIES}
+    measured = ~np.all([motion.segments[0].unmeasured for motion in motions], axis=0)
+    # No row of an unmeasured torque is usable; were it another joint's, rows would be usable as others are.
+    usable = series["usable"]
+    usable[:, ~measured] = usable.any(axis=1, keepdims=True)
     cycles = sum(motion.log.duration * motion.recipe.motion_band_hz for motion in motions)
-    return Samples(**series, independent=max(1.0, float(series["judged"].mean() * 2.0 * cycles)))
+    return Samples(
+        **series, measured=measured, independent=max(1.0, float(series["judged"].mean() * 2.0 * cycles))
+    )
 
 
 def _taken(

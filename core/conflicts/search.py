@@ -11,10 +11,11 @@ import numpy as np
 
 from .conflict import Hypothesis
 from .kinds.gear_ratio import GearRatio
+from .kinds.other_signal import copied_signals
 from .kinds.unit import Unit
 from .path import FoundConflict, Margins, Path, cost, unsure
-from .position_forces import only_needed
 from .refinement import refined
+from .rival import only_needed
 from .setup import Setup
 from .steps import Steps, first_steps
 from .thresholds import DECISION, DOUBT, TRIAL
@@ -23,16 +24,54 @@ from .trial import Outcome, Trials
 
 def find_conflicts(setup: Setup, trials: Trials) -> Path:
     """Search for corrections of a set-up, one after the other; the last one's set-up holds them all."""
-    present = trials.outcome(trials.equations(setup))
-    path = () if present is None else _Search(trials).path(setup, present, TRIAL.most_corrections)
-    return _as_sure_as_they_fit(only_needed(refined(path, setup, trials), setup, trials))
+    copies = _without_copies(setup, trials)
+    first = copies[-1].hypothesis.setup if copies else setup
+    present = trials.outcome(trials.equations(first))
+    path = () if present is None else _Search(trials).path(first, present, TRIAL.most_corrections)
+    return copies + _as_sure_as_they_fit(only_needed(refined(path, first, trials), first, trials))
+
+
+def _without_copies(setup: Setup, trials: Trials) -> Path:
+    """Leave out the torques that are copies of other signals: these show it whatever the model says."""
+    path: list[FoundConflict] = []
+    while copies := next(copied_signals(setup, trials), ()):
+        before = trials.outcome(trials.equations(setup))
+        fitted = [(own, trials.outcome(trials.equations(own.setup))) for own in copies]
+        ranked = sorted(((own, after) for own, after in fitted if after is not None), key=_score_after)
+        if not ranked or before is None:
+            break
+        (own, after), *others = ranked
+        margins = Margins.of(before, trials)
+        worse = [(other, outcome.score - after.score) for other, outcome in others]
+        alike = tuple(other for other, more in worse if more < margins.undecided)
+        against = sum(margins.likelihood(more) for _, more in worse if more >= margins.undecided)
+        path.append(FoundConflict(own, _without(own, before), after, 1.0 / (1.0 + against), alike))
+        setup = own.setup
+    return tuple(path)
+
+
+def _score_after(pair: tuple[Hypothesis, Outcome]) -> float:
+    return pair[1].score
+
+
+def _without(own: Hypothesis, before: Outcome) -> Outcome:
+    """Take nothing for predicted of a torque that is left out, before as after."""
+    errors = before.errors.copy()
+    errors[[joint - 1 for joint in own.joints]] = 1.0
+    return replace(before, errors=errors)
 
 
 def _as_sure_as_they_fit(path: Path) -> Path:
-    """Limit the confidence of corrections after which the model still fails on a joint."""
-    if not path or float(np.max(path[-1].after.errors)) <= DECISION.failed:
+    """Limit the confidence of corrections after which the model still fails on a joint.
+
+    So too where they leave more than half of an error that is still in doubt: the true one is another.
+    """
+    if not path:
         return path
-    return unsure(path)
+    first, last = path[0].before, path[-1].after
+    fails = float(np.max(last.errors)) > DECISION.failed
+    left = last.score - max(np.log(DOUBT.unexplained), first.score + np.log(DECISION.least_share))
+    return unsure(path) if fails or left > 0.0 else path
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,11 +17,6 @@ class Setup:
     robot: RobotModel
     assignment: Assignment
 
-    @classmethod
-    def as_described(cls, robot: RobotModel) -> "Setup":
-        """Take description and channels as they are."""
-        return cls(robot, Assignment.as_measured(len(robot.joints)))
-
     @property
     def joints(self) -> int:
         """Count the joints."""

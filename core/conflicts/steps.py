@@ -147,12 +147,18 @@ def _can_gain(candidate: _Bounded, present: Outcome) -> bool:
 
 
 def _try(candidate: _Bounded, trials: Trials, needed: float) -> _Tried | None:
-    outcome = trials.outcome(candidate.equations)
-    if outcome is None:
+    own, outcome = candidate.hypothesis, trials.outcome(candidate.equations)
+    if outcome is None or _is_guessed(own, outcome):
         return None
-    own = candidate.hypothesis
     credit = needed if own.expected else -DECISION.least_gain * (own.corrections - 1)
     return _Tried(own, outcome, outcome.score - credit)
+
+
+def _is_guessed(own: Hypothesis, outcome: Outcome) -> bool:
+    """Tell whether a factor is put on a torque of which hardly any variation is predicted: any is as good."""
+    places = [joint - 1 for joint in own.joints]
+    scales = own.channel == "torque" and _subject(own)[0] == "factor"
+    return scales and bool(np.any(outcome.unpredicted[places] > DECISION.failed))
 
 
 def _better(tried: Iterable[_Tried], present: Outcome, needed: float) -> list[_Tried]:

@@ -52,6 +52,9 @@ class Decision:
     most_where_unsure: float = 0.5
     """Confidence of a correction there, at most, and where forces that follow positions predict as
     well. Set by hand."""
+    least_share: float = 0.5
+    """Share of the mean error before, if not less than a tenth, that corrections may leave to be more likely
+    than not. Set by hand."""
     least_gain: float = 0.15
     """Natural logarithm by which the joints' mean error has to fall: a seventh. Set by hand: on the four
     measured robots as described, no other set-up reaches 0.11."""
@@ -114,6 +117,8 @@ class Ratio:
     """Logarithm to which a factor is refined."""
     least: float = np.log(2.0)
     """Logarithm below which a factor is a cause with a size, and no conflict."""
+    most: float = np.log(300.0)
+    """Logarithm beyond which a factor is no gear's: what the fit multiplies so is no torque of this joint."""
     steps: int = 13
     """Factors of a position that are tried first, from the least with which a joint moves to the largest with
     which it can."""
@@ -158,6 +163,19 @@ class PositionForces:
     """Radians or metres: a joint that moves less has no such force."""
 
 
+@dataclass(frozen=True)
+class OtherSignal:
+    """Tell a torque from another signal in its place. All are set by hand."""
+
+    copy: float = 0.02
+    """RMS of what a motion, times one of its units, leaves of a torque over the torque's variation, below
+    which the torque is a copy; and relative error of the factor. A load is no single one of these."""
+    predictable: float = 0.2
+    """Share of the variance of a torque that can be predicted, below which it is none of this joint."""
+    rank: float = 1e-6
+    """Relative singular value below which columns are dependent."""
+
+
 DOUBT, TRIAL, DECISION, MOUNTING = Doubt(), Trial(), Decision(), Mounting()
 TIME_BASE, LENGTH, RATIO, UNIT = TimeBase(), Length(), Ratio(), Unit()
-POSITION_FORCES = PositionForces()
+POSITION_FORCES, OTHER_SIGNAL = PositionForces(), OtherSignal()

@@ -42,6 +42,8 @@ class Outcome:
 
     errors: JointVector
     """RMS residual over RMS torque per joint, on the rows that judge."""
+    unpredicted: JointVector
+    """The same over the torque's variation."""
     fitted: float
     """Mean logarithm of the same on the rows that were fitted."""
     bound: float
@@ -120,7 +122,8 @@ class Trials:
             return None
         values = base.base_of(solution.standard)
         fitted = float(mean_log(equations.errors(values, judged=False)))
-        return Outcome(equations.errors(values, judged=True), fitted, float(reduced.bound))
+        errors, unpredicted = equations.errors(values, judged=True), equations.unpredicted(values)
+        return Outcome(errors, unpredicted, fitted, float(reduced.bound))
 
     def under_gravity(self, setup: Setup) -> Callable[[np.ndarray], np.ndarray]:
         """Give the bound as a function of gravity in the base frame, m/s2, in which torque is linear."""

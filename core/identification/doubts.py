@@ -35,10 +35,19 @@ SOURCES = {
     "shapes": "from the shapes of its description",
     "axes": "assumed from the distances between axes",
 }
-DOUBTFUL = ("implausible_unit", "velocity_mismatch", "position_is_reference", ONE_DIRECTION)
+MISSING = "missing_torque"
+DOUBTFUL = (
+    "implausible_unit",
+    "velocity_mismatch",
+    "position_is_reference",
+    "shared_position",
+    MISSING,
+    ONE_DIRECTION,
+)
 """Defects of a log by which values are wrong, or not known, however well the model fits."""
 LEAST_SQUARES = ("sdp", "wls", "irls", "ols")
 """Estimators that noise of columns biases."""
+_DOES_NOT_EXCITE = "The motion does not excite"
 CERTAIN = 3.0
 """A value this many standard deviations from zero has a significant sign."""
 FAR_FROM_DESCRIBED = 10.0
@@ -259,9 +268,9 @@ def _not_excited(found: Identification) -> list[str]:
     unexcited = np.diag(found.precision.information) == 0.0
     sentences = []
     if unexcited.any():
-        sentences.append(
-            f"The motion does not excite {_names(found, unexcited)}: their values are those of the prior"
-        )
+        missing = any(defect.kind == MISSING for log in found.logs for defect in log.defects)
+        source = "The motion and the torques that were measured do not show" if missing else _DOES_NOT_EXCITE
+        sentences.append(f"{source} {_names(found, unexcited)}: their values are those of the prior")
     if (unknown & ~unexcited).any():
         sentences.append(
             f"The motion does not separate {_names(found, unknown & ~unexcited)}: "

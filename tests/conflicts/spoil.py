@@ -111,6 +111,23 @@ def time_base(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spo
     return Spoilt(robot, spoilt, "time_base")
 
 
+def other_signal(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
+    """Log in the place of a torque a joint's position or velocity, another torque, or noise."""
+    rows, joint, kind = whole_rows(log), _joint(robot, rng), int(rng.integers(4))
+    assert rows.torque is not None
+    other = (joint + 1) % log.joints
+    signals = (
+        lambda: rows.position[:, joint],
+        lambda: np.gradient(rows.position[:, joint], rows.time),
+        lambda: rows.torque[:, other],
+        lambda: rng.uniform(0.01, 1.0) * rng.normal(size=len(rows.time)),
+    )
+    torque = rows.torque.copy()
+    torque[:, joint] = signals[kind]()
+    spoilt = log_from_arrays(log.name, rows.time, rows.position, torque)
+    return Spoilt(robot, spoilt, "other_signal", (joint + 1,), "torque")
+
+
 def nothing(robot: RobotModel, log: JointLog, _rng: np.random.Generator) -> Spoilt:
     """Leave everything as it is."""
     return Spoilt(robot, log, None)
@@ -133,6 +150,7 @@ SPOILERS: Mapping[str, Spoiler] = {
         unit,
         gear_ratio,
         motor_side,
+        other_signal,
         time_base,
     )
 }

@@ -19,7 +19,7 @@ from tests.hidden.score import Score
 from tests.hidden.tables import tables
 from tests.plant.effects.registry import EFFECTS
 
-COMMANDS = ("ablate", "calibrate", "clean", "regressions")
+COMMANDS = ("ablate", "calibrate", "changed", "clean", "regressions")
 """Modules of this folder with a task of their own, loaded late: one must not have loaded the diagnosis."""
 
 

@@ -8,10 +8,12 @@ Hutchinson & Vidyasagar, Robot Modeling and Control (2006), ch. 7, for the equat
 Contact and Dry Friction (1988), for friction.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import reduce
 
 import numpy as np
 
+from tests.plant.second_effects import Change, Log, draw_changes
 from tests.plant.sensors import noise as draw_noise
 from veritorque.core.log.model import JointLog
 from veritorque.core.log.reader import log_from_arrays
@@ -105,11 +107,39 @@ def draw_second(
     rng = np.random.default_rng([seed, 77])
     body, reference = _body(rng), _reference(rng, _between(rng, HIGHEST_HZ[motion]))
     drive = Drive(_between(rng, LOOP_HZ), 2.0 * np.pi / (float(rng.choice(COUNTS)) * finer))
-    position, torque = _simulate(body, reference, SECONDS, drive)
+    series = _recorded(_World(body, reference, drive), rng, noise)
+    return robot(), log_from_arrays(f"second_{motion}_{noise}_{seed}", *series)
+
+
+def draw_changed(
+    seed: int, motion: str, noise: str = "white"
+) -> tuple[RobotModel, JointLog, tuple[Change, ...]]:
+    """Draw a log in which one or two textbook effects are hidden, and say which."""
+    rng = np.random.default_rng([seed, 78, list(HIGHEST_HZ).index(motion)])
+    body, reference = _body(rng), _reference(rng, _between(rng, HIGHEST_HZ[motion]))
+    drive = Drive(_between(rng, LOOP_HZ), 2.0 * np.pi / float(rng.choice(COUNTS)))
+    changes = draw_changes(rng, body.weights + body.coulomb)
+    series = _recorded(_World(body, reference, drive, changes), rng, noise)
+    return robot(), log_from_arrays(f"changed_{motion}_{noise}_{seed}", *series), changes
+
+
+@dataclass(frozen=True, eq=False)
+class _World:
+    """Hold all that a simulation needs."""
+
+    body: Body
+    reference: Reference
+    drive: Drive
+    changes: tuple[Change, ...] = ()
+
+
+def _recorded(world: _World, rng: np.random.Generator, noise: str) -> Log:
+    """Simulate, add noise and log."""
+    position, torque = _simulate(world, SECONDS)
     size = _between(rng, NOISE_SHARE) * torque.std(axis=0)
     torque = torque + size * draw_noise(noise, torque.shape, RATE_HZ, rng)
-    time = np.arange(len(position)) / RATE_HZ
-    return robot(), log_from_arrays(f"second_{motion}_{noise}_{seed}", time, position, torque)
+    logged = np.arange(len(position)) / RATE_HZ, position, torque
+    return reduce(lambda seen, one: one.logged(seen), world.changes, logged)
 
 
 def _between(rng: np.random.Generator, ends: tuple[float, float]) -> float:
@@ -144,10 +174,9 @@ def _reference(rng: np.random.Generator, highest_hz: float) -> Reference:
     return Reference(1.5 * amplitude / np.sqrt(8.0), rate, rng.uniform(-np.pi, np.pi, (8, 2)))
 
 
-def _simulate(
-    body: Body, reference: Reference, seconds: float, drive: Drive
-) -> tuple[np.ndarray, np.ndarray]:
+def _simulate(world: _World, seconds: float) -> tuple[np.ndarray, np.ndarray]:
     """Run loop and arm; give the encoder's angles and the commanded torque at the log's rate."""
+    body, reference, drive, changes = world.body, world.reference, world.drive, world.changes
     angle, _, _ = reference.at(0.0)
     rate, command, friction, seen = np.zeros(2), np.zeros(2), np.zeros(2), angle
     last, count, loop = command, drive.step, 2.0 * np.pi * drive.loop_hz
@@ -157,17 +186,33 @@ def _simulate(
     rows = []
     for step in range(round(seconds / STEP)):
         if step % cycle == 0:
-            last, before, seen = command, seen, count * np.round(angle / count)
+            last, before = command, seen
+            seen = count * np.round(reduce(lambda own, one: one.seen(own), changes, angle) / count)
             wanted = reference.at(step * STEP)
             forward = body.mass(wanted[0]) @ wanted[2] + body.bias(wanted[0], wanted[1])
             slip = wanted[1] - (seen - before) / CYCLE
             command = forward + stiffness * (wanted[0] - seen) + damping * slip
         if step % row == 0:
             rows.append((seen, NOW * command + (1.0 - NOW) * last))
-        rate, friction = _moved(body, angle, rate, command, friction)
+        now, pushed = _changed(changes, body, step * STEP, (angle, rate, command, friction))
+        rate, friction = _moved(now, angle, rate, command + pushed, friction)
         angle = angle + STEP * rate
     position, torque = (np.array(column) for column in zip(*rows, strict=True))
     return position, torque
+
+
+def _changed(
+    changes: tuple[Change, ...], body: Body, time: float, state: tuple[np.ndarray, ...]
+) -> tuple[Body, np.ndarray]:
+    """Give the bodies, with their friction, and the torques that the effects add at a time."""
+    angle, rate, command, friction = state
+    pushed, level = np.zeros(2), body.coulomb.copy()
+    for one in changes:
+        joint = one.joint
+        pushed[joint] += one.push(time, angle, rate)
+        load = float(command[joint] - friction[joint])
+        level[joint] = one.level(float(level[joint]), time, float(angle[joint]), float(rate[joint]), load)
+    return replace(reduce(lambda own, one: one.body(own, time), changes, body), coulomb=level), pushed
 
 
 def _moved(

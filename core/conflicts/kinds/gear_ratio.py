@@ -29,7 +29,7 @@ class GearRatio(Conflict):
             if present.bound - bounds.min() < RATIO.promising:
                 continue
             factor = _likeliest(present, joint, float(firsts[np.argmin(bounds)]))
-            if abs(np.log(factor)) >= RATIO.least:
+            if RATIO.least <= abs(np.log(factor)) <= RATIO.most:
                 yield factor_hypothesis(setup, joint, factor)
         yield from position_hypotheses(self.name, setup, trials)
 

@@ -13,7 +13,6 @@ from scipy.optimize import fmin_powell, minimize_scalar
 
 from ...arrays import JointVector, Vector
 from ...log.channels import POSITIONS
-from ...log.columns.assignment import Assignment
 from ..conflict import Hypothesis
 from ..setup import Setup
 from ..thresholds import RATIO, UNIT
@@ -26,7 +25,7 @@ def position_hypotheses(conflict: str, setup: Setup, trials: Trials) -> Iterator
     None where a channel has been assigned otherwise already: factors so large come first, and beside another
     correction they stand for a spring.
     """
-    if setup.assignment != Assignment.as_measured(setup.joints):
+    if setup.assignment != trials.samples.as_measured:
         return
     search = _Search.over(setup, trials)
     if not search.joints:

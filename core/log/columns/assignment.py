@@ -18,6 +18,7 @@ from .mapping import RATE
 _LIKE_POSITION = ("position", "velocity", "position_ref", "velocity_ref")
 _LIKE_TORQUE = ("torque", "current", "torque_ref", "command", "temperature")
 _SIGNLESS = "temperature"
+_MISSING = "missing_torque"
 
 
 @dataclass(frozen=True)
@@ -124,10 +125,13 @@ def assigned(log: JointLog, assignment: Assignment) -> JointLog:
         source=AssignedSource(log.source, assignment),
         rate_hz=log.rate_hz / factor,
         duration=log.duration * factor,
-        defects=tuple(
-            _assigned_defect(defect, assignment)
-            for defect in log.defects
-            if not _is_answered(defect, assignment)
+        defects=(
+            *(
+                _assigned_defect(defect, assignment)
+                for defect in log.defects
+                if not _is_answered(defect, assignment)
+            ),
+            *_left_out(log, assignment),
         ),
         bindings=tuple(_assigned_binding(binding, assignment) for binding in log.bindings),
     )
@@ -135,12 +139,29 @@ def assigned(log: JointLog, assignment: Assignment) -> JointLog:
 
 def _is_answered(defect: Defect, assignment: Assignment) -> bool:
     """Tell whether a defect is that of a size which the assignment changes."""
-    if defect.kind != "implausible_unit":
-        return False
-    if defect.joint is None:
-        return assignment.time_factor != 1.0
     channels = assignment.position if defect.channel in _LIKE_POSITION else assignment.torque
-    return abs(channels.factor[channels.source.index(defect.joint - 1)]) != 1.0
+    factor = 1.0 if defect.joint is None else channels.factor[channels.source.index(defect.joint - 1)]
+    if defect.kind != "implausible_unit":
+        return factor == 0.0 and defect.kind != _MISSING
+    return abs(assignment.time_factor if defect.joint is None else factor) != 1.0
+
+
+def _left_out(log: JointLog, assignment: Assignment) -> list[Defect]:
+    """Say of the torques that a factor of zero leaves out that they are not measured, if it is not said."""
+    known = {defect.joint for defect in log.defects if defect.kind == _MISSING}
+    ends = ((0.0, log.duration * assignment.time_factor),)
+    return [
+        Defect(
+            _MISSING,
+            "torque",
+            joint + 1,
+            log.source.samples,
+            ends,
+            f"Joint {joint + 1}'s torque is not used: what was logged as such is not its torque.",
+        )
+        for joint, factor in enumerate(assignment.torque.factor)
+        if factor == 0.0 and assignment.torque.source[joint] + 1 not in known
+    ]
 
 
 def _assigned_defect(defect: Defect, assignment: Assignment) -> Defect:

@@ -26,6 +26,7 @@ from .replays import Replays
 from .resolution import Resolution
 from .rest import Rest
 from .saturation import Saturation
+from .shared import Shared
 from .spikes import Spikes
 from .stretch import Facts, Finder, Stretch, stretches
 from .stuck import Stuck
@@ -74,7 +75,7 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
     replays = Replays()
     finders: list[Finder] = [
         clock, repeats, stuck, filled, unpowered, Saturation(joints), resolution, Rest(samples),
-        bandwidth, Direction(joints), Velocity(joints), Reference(joints),
+        bandwidth, Direction(joints), Velocity(joints), Reference(joints), Shared(joints),
     ]  # fmt: skip  # a table
     accepted = True
     for stretch in stretches(source):

@@ -78,7 +78,7 @@ def _missing_torques(facts: Facts) -> list[Defect]:
             facts.samples,
             ((facts.start, facts.start + facts.duration),),
             f"Joint {joint + 1}'s torque is {facts.low['torque'][joint]:g} "
-            f"{facts.units['torque'][int(joint)]} throughout, not measured.",
+            f"{facts.units['torque'][int(joint)]} throughout, not measured: it is not used.",
         )
         for joint in dead
     ]

@@ -14,12 +14,15 @@ from ...arrays import Samples
 from ..channels import EFFORTS
 from ..model import STANDING_ROWS, Defect
 from .repeats import JUMP, Repeats, Rows
-from .runs import KEPT, LongRuns
+from .runs import KEPT, LongRuns, is_no_chance
 from .stretch import Facts, Stretch, count_text
 
 RARELY, OFTEN = 0.1, 0.05
 """A torque that carries noise repeats the value before in a smaller share of the samples than this, and turns
 round in a larger one than that: simulated torque without noise may stay the same in a steady motion."""
+GROUP = 10.0
+"""Where it repeats values more often, it may do so in groups of so many: a run that is no chance is as many
+times longer than one of independent repeats."""
 MOVES = 0.05
 """A joint that covers this share of its usual way moves."""
 LONGEST_S = 1.0
@@ -139,7 +142,9 @@ class _Signal:
         runs = self._exceptional()
         lasted, way = (runs[:, 1, value] - runs[:, 0, value] for value in (_ROW, _WAY))
         others = self._rows - float(lasted.sum())
-        noisy = self._repeats - lasted.sum() < RARELY * others and self._turns > OFTEN * others
+        share = (self._repeats - float(lasted.sum())) / max(others, 1.0)
+        rare = (share < RARELY) | is_no_chance(lasted / GROUP, share, self._rows)
+        noisy = rare & (self._turns > OFTEN * others)
         value = runs[:, 1, _VALUE]
         reached = runs[:, 0, _BEFORE] <= self._jump
         clipped = ((value == self._low) | (value == self._high)) & reached

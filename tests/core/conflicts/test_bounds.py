@@ -85,13 +85,14 @@ def test_a_torque_that_is_assigned_is_bounded_as_in_a_log_that_was_so_measured(a
     only = replace(PLAIN, torque=PLAIN.torque.exchanged(0, 2).scaled(-2.0, 1))
     read, as_measured = trials(log, robot), trials(assigned(log, only), robot)
     assert bound(Setup(robot, only), read) == pytest.approx(
-        bound(Setup.as_described(robot), as_measured), abs=1e-6
+        bound(Setup(robot, as_measured.samples.as_measured), as_measured), abs=1e-6
     )
 
 
 def test_set_ups_of_one_motion_are_bounded_side_by_side_as_singly(arm):
     robot, log = arm
-    some, setup = trials(log, robot), Setup.as_described(robot)
+    some = trials(log, robot)
+    setup = Setup(robot, some.samples.as_measured)
     several = [setup.with_torque(PLAIN.torque.scaled(factor, 1)) for factor in (1.0, -1.0, 30.0)]
     together = stacked([some.equations(own).reduced for own in several]).bound
     np.testing.assert_allclose(together, [bound(own, some) for own in several], atol=1e-9)

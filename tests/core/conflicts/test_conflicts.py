@@ -174,7 +174,7 @@ def test_positions_that_are_all_in_another_unit_are_named_beside_channels_that_a
 
 def test_a_measured_length_that_is_described_too_short_is_named_or_what_equals_it():
     pendulum, log = pendulum_robot(), measured_log("double_pendulum", "sys_id_2")
-    setup = Setup.as_described(with_entry(pendulum, 2, "d", -0.1))
+    setup = Setup(with_entry(pendulum, 2, "d", -0.1), Assignment.as_measured(2))
     motions = condition_all((log,), pendulum, FilterOptions(), blocks=20)
     trials = Trials(sampled(motions, HoldOut().chosen(1)))
     (found,) = CONFLICTS["link_length"].hypotheses(setup, trials)
@@ -183,7 +183,7 @@ def test_a_measured_length_that_is_described_too_short_is_named_or_what_equals_i
     (first,) = find_conflicts(setup, trials)
     assert first.hypothesis.conflict == "mounting"  # a planar arm tells the ratio of length and gravity alone
     assert [one.key for one in first.equivalents] == [("link_length", (2,), None)]
-    described = Setup.as_described(pendulum)
+    described = Setup(pendulum, Assignment.as_measured(2))
     assert not list(CONFLICTS["link_length"].hypotheses(described, trials))
 
 
@@ -210,7 +210,7 @@ def test_nothing_is_named_in_the_place_of_a_slight_tilt_of_a_measured_arm(degree
     tilted = replace(robot, gravity=tilt.apply(robot.gravity))
     motions = condition_all((log,), tilted, FilterOptions(), blocks=blocks)
     trials = Trials(sampled(motions, HoldOut(0.25, blocks).chosen(1)))
-    assert find_conflicts(Setup.as_described(tilted), trials) == ()
+    assert find_conflicts(Setup(tilted, trials.samples.as_measured), trials) == ()
 
 
 @pytest.mark.parametrize("seed", [3, 6, 11])
@@ -367,9 +367,10 @@ def test_no_correction_is_more_likely_than_not_while_the_model_fails_on_a_joint(
 def test_every_hypothesis_is_another_set_up_and_says_what_to_do(arm, name):
     robot, log, _ = arm
     motions = condition_all((log,), robot, FilterOptions(), blocks=20)
-    setup, trials = Setup.as_described(robot), Trials(sampled(motions, HoldOut().chosen(1)))
+    trials = Trials(sampled(motions, HoldOut().chosen(1)))
+    setup = Setup(robot, trials.samples.as_measured)
     listed = list(CONFLICTS[name].hypotheses(setup, trials))
-    assert listed or name in {"mounting", "link_length", "gear_ratio"}
+    assert listed or name in {"mounting", "link_length", "gear_ratio", "other_signal"}
     for one in listed:
         other = one.setup
         assert (
@@ -390,7 +391,8 @@ def test_sound_measured_robots_have_no_conflict(unit):
     rows = whole_rows(log)
     log = log_from_arrays(log.name, rows.time, rows.position, unit * rows.torque)
     motions = condition_all((log,), robot, FilterOptions(), blocks=20)
-    assert find_conflicts(Setup.as_described(robot), Trials(sampled(motions, HoldOut().chosen(1)))) == ()
+    trials = Trials(sampled(motions, HoldOut().chosen(1)))
+    assert find_conflicts(Setup(robot, trials.samples.as_measured), trials) == ()
 
 
 @pytest.mark.parametrize("way", ["channels_swapped", "mounting", "motor_side"])

@@ -48,7 +48,7 @@ def test_no_motors_ratios_are_named_beside_exchanged_channels_in_the_place_of_a_
 
 
 def test_a_set_up_takes_parts_of_another(arm):
-    plain = Setup.as_described(arm)
+    plain = Setup(arm, Assignment.as_measured(len(arm.joints)))
     other = plain.with_gravity(np.array([9.81, 0.0, 0.0]))
     channels = Assignment.as_measured(len(arm.joints)).torque.exchanged(0, 1)
     other = other.with_torque(channels).with_position(channels.scaled(-1.0, 0))

@@ -493,3 +493,33 @@ def test_positions_that_equal_their_reference_were_not_measured(lag, found):
     assert "position_is_reference" not in [
         defect.kind for defect in log_from_arrays("a", time, position, torque).defects
     ]
+
+
+@pytest.mark.parametrize(("apart", "found"), [(0.0, True), (1e-6, False)], ids=["the same", "another"])
+def test_two_joints_do_not_share_their_positions(apart, found):
+    time = np.arange(0.0, 20.0, 4e-3)
+    first = np.sin(time)
+    position = np.column_stack([first, np.cos(1.3 * time), first + apart * np.cos(time), np.zeros_like(time)])
+    torque = np.column_stack([np.cos((1.0 + 0.1 * joint) * time) for joint in range(4)])
+    shared = [
+        one
+        for one in log_from_arrays("planted", time, position, torque).defects
+        if one.kind == "shared_position"
+    ]
+    assert [one.joint for one in shared] == ([3] if found else [])
+
+
+def test_a_torque_that_is_held_for_half_a_log_is_stuck_though_its_recorder_repeats_rows():
+    """One recorder in four drops every sixth packet and repeats the last value."""
+    rng = np.random.default_rng(4)
+    time = np.arange(0.0, 20.0, 1e-3)
+    position = np.column_stack([np.sin(time), np.cos(1.3 * time)])
+    torque = np.column_stack([np.cos(time), np.sin(1.3 * time)]) + 0.01 * rng.normal(size=(len(time), 2))
+    kept = np.maximum.accumulate(np.where(rng.random(len(time)) < 1.0 / 6.0, 0, np.arange(len(time))))
+    torque = torque[kept]
+    torque[len(time) // 2 :, 1] = torque[len(time) // 2, 1]
+    [found] = [
+        one for one in log_from_arrays("held", time, position, torque).defects if one.kind == "stuck_channel"
+    ]
+    assert (found.channel, found.joint) == ("torque", 2)
+    assert found.count > 0.45 * len(time)

@@ -1,0 +1,120 @@
+"""Test whether what was logged as a joint's torque is another signal: its speed, a temperature, noise.
+
+A channel that repeats a motion or another torque shows it by itself. Of any other that is no torque, nothing
+can be predicted, neither by the model nor by forces that follow the positions.
+"""
+
+from collections.abc import Iterator
+from typing import ClassVar
+
+import numpy as np
+
+from ...arrays import InstantSeries, JointSeries, SampleMask, Vector
+from ..conflict import Conflict, Hypothesis
+from ..equations import Equations
+from ..position_forces import beside_forces
+from ..samples import Samples
+from ..setup import Setup
+from ..thresholds import DECISION, OTHER_SIGNAL
+from ..trial import Trials
+
+_UNITS = (1.0, np.pi / 180.0, 180.0 / np.pi)
+"""Factors that a motion may have in the place of a torque: as declared, or in another unit of angles."""
+
+
+class OtherSignal(Conflict):
+    """Leave out the torque of a joint."""
+
+    name: ClassVar[str] = "other_signal"
+    title: ClassVar[str] = "Another signal in a torque's place"
+
+    def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
+        """Leave out each torque that follows neither the model's columns nor the positions."""
+        present = trials.outcome(trials.equations(setup))
+        failed = [] if present is None else np.flatnonzero(present.errors > DECISION.failed).tolist()
+        asked = [joint for joint in _measured(setup, trials) if joint in failed]
+        if not asked:
+            return
+        free = beside_forces(trials, setup).equations(setup)
+        for joint in asked:
+            if _predictable(free, joint) < OTHER_SIGNAL.predictable:
+                yield _left_out(setup, joint, "follows neither its motion nor its position")
+
+
+def copied_signals(setup: Setup, trials: Trials) -> Iterator[tuple[Hypothesis, ...]]:
+    """Leave out each torque that repeats a motion; of two torques that are one, either."""
+    samples = trials.samples.moved(setup.assignment)
+    torque = setup.assignment.torque.of(samples.torque)
+    measured = _measured(setup, trials)
+    for joint in measured:
+        signal = _repeated(torque[:, joint], samples, samples.usable[:, joint])
+        if signal:
+            yield (_left_out(setup, joint, f"is {signal}"),)
+            continue
+        for other in measured:
+            rows = samples.usable[:, joint] & samples.usable[:, other]
+            if other > joint and _is_copy(torque[:, [other]], torque[:, joint], rows, (1.0,)).any():
+                both = f"is that of joint {{}} as well: torques of joints {joint + 1} and {other + 1} are one"
+                yield (
+                    _left_out(setup, joint, both.format(other + 1)),
+                    _left_out(setup, other, both.format(joint + 1)),
+                )
+
+
+def _measured(setup: Setup, trials: Trials) -> list[int]:
+    """List the joints, from 0, that move and whose torque is used."""
+    moves, factor = trials.moves(setup), setup.assignment.torque.factor
+    return [joint for joint in range(setup.joints) if moves[joint] and factor[joint] != 0.0]
+
+
+def _left_out(setup: Setup, joint: int, says: str) -> Hypothesis:
+    named = f"the torque of joint {joint + 1}"
+    return Hypothesis(
+        OtherSignal.name,
+        (joint + 1,),
+        "torque",
+        setup.with_torque(setup.assignment.torque.scaled(0.0, joint)),
+        f"{named} {says}",
+        f"map the column that is {named}, or leave it out by a scale of 0",
+    )
+
+
+def _repeated(torque: Vector, samples: Samples, rows: SampleMask) -> str:
+    """Name the motion that a torque repeats; nothing where it repeats none."""
+    for name, series in (
+        ("position", samples.position),
+        ("velocity", samples.velocity),
+        ("acceleration", samples.acceleration),
+    ):
+        copies = np.flatnonzero(_is_copy(series, torque, rows, _UNITS))
+        if len(copies):
+            return f"the {name} of joint {copies[0] + 1}"
+    return ""
+
+
+def _is_copy(series: JointSeries, torque: Vector, rows: SampleMask, factors: tuple[float, ...]) -> np.ndarray:
+    """Mark the series that a torque is, but for an offset and one of some factors."""
+    own, others = (_centred(each[rows]) for each in (torque[:, None], series))
+    size, product = np.einsum("ij,ij->j", others, others), others.T @ own[:, 0]
+    slope = product / np.where(size > 0.0, size, np.inf)
+    left = float(own[:, 0] @ own[:, 0]) - slope * product
+    alike = left < OTHER_SIGNAL.copy**2 * float(own[:, 0] @ own[:, 0])
+    known = np.abs(np.abs(slope)[:, None] / np.array(factors) - 1.0) < OTHER_SIGNAL.copy
+    return np.asarray(alike & known.any(axis=1))
+
+
+def _centred(series: InstantSeries) -> InstantSeries:
+    return np.asarray(series - series.mean(axis=0)) if len(series) else series
+
+
+def _predictable(equations: Equations, joint: int) -> float:
+    """Give the share of a torque's variance that a free fit of its own rows predicts on others, below 1."""
+    fitted, judged = equations.regressor.fitted, equations.regressor.judged
+    columns, torque = fitted.columns[joint], fitted.torque(equations.channels)[joint]
+    sizes = np.linalg.norm(columns, axis=1)
+    used = sizes > 0.0
+    free, *_ = np.linalg.lstsq((columns[used] / sizes[used, None]).T, torque, rcond=OTHER_SIGNAL.rank)
+    measured = judged.torque(equations.channels)[joint]
+    left = measured - (free / sizes[used]) @ judged.columns[joint][used]
+    varies = measured - torque.mean()
+    return 1.0 - float(left @ left) / max(float(varies @ varies), np.finfo(float).tiny)

@@ -1,0 +1,87 @@
+"""Hold what is said of a torque channel that holds another signal: no other conflict stands for it."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from tests.core.estimate.worlds import swing, true_parameters
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.log.model import JointLog, LogRows, whole_rows
+from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.robot.description import robot_from_description
+from veritorque.core.robot.model import RobotModel
+from veritorque.core.study import IdentifyRequest, identify
+
+PLAIN = {"bootstrap": {"draws": 0}}
+JOINT = 1
+"""The joint, from 0, whose torque is another signal."""
+Made = Callable[[LogRows, np.random.Generator], np.ndarray]
+COPIES: dict[str, Made] = {
+    "its position": lambda rows, _: rows.position[:, JOINT],
+    "its position in degrees": lambda rows, _: np.degrees(rows.position[:, JOINT]),
+    "another position": lambda rows, _: rows.position[:, 0],
+    "its velocity": lambda rows, _: np.gradient(rows.position[:, JOINT], rows.time),
+    "another torque": lambda rows, _: rows.torque[:, 2],
+}
+UNRELATED: dict[str, Made] = {
+    "noise": lambda rows, rng: 0.01 * rng.normal(size=len(rows.time)),
+    "a temperature": lambda rows, _: np.round(30.0 + 8.0 * (1.0 - np.exp(-rows.time / 10.0)), 1),
+    "coloured noise": lambda rows, rng: np.convolve(rng.normal(size=len(rows.time)), np.ones(9) / 9, "same"),
+}
+
+
+@pytest.fixture(scope="module")
+def arm() -> tuple[RobotModel, JointLog]:
+    """Give three skew joints with 1 % of noise."""
+    row = {"type": "revolute", "theta_offset": 0.0}
+    rows = [
+        {**row, "alpha": 0.0, "d": 0.0, "r": 0.3},
+        {**row, "alpha": -np.pi / 2, "d": 0.1, "r": 0.0},
+        {**row, "alpha": 0.0, "d": 0.4, "r": 0.1},
+    ]
+    robot = robot_from_description({"name": "arm", "joints": rows})
+    model = standard_model(robot)
+    state = swing(3, seed=5)
+    torque = model.torque(true_parameters(model, seed=3), state)
+    noise = 0.01 * np.sqrt(np.mean(torque**2, axis=0)) * np.random.default_rng(8).normal(size=torque.shape)
+    return robot, log_from_arrays("swing", np.arange(len(torque)) / 100.0, state.position, torque + noise)
+
+
+def _with_torque(log: JointLog, made: Made) -> JointLog:
+    rows = whole_rows(log)
+    torque = rows.torque.copy()
+    torque[:, JOINT] = made(rows, np.random.default_rng(3))
+    return log_from_arrays(log.name, rows.time, rows.position, torque)
+
+
+@pytest.mark.parametrize("signal", sorted(COPIES))
+def test_a_torque_that_is_a_copy_is_named_and_left_out(arm, signal):
+    robot, log = arm
+    document = identify(IdentifyRequest(robot, (_with_torque(log, COPIES[signal]),), PLAIN))
+    [row] = document["conflicts"]
+    named = [(one["conflict"], one["joints"]) for one in (row, *row["ambiguous_with"])]
+    assert ("other_signal", [JOINT + 1]) in named
+    assert row["confidence"] > 0.9
+    assert row["correction"]["mapping"]["torque"]["scale"][JOINT] == 0.0
+
+
+@pytest.mark.parametrize("signal", sorted(UNRELATED))
+def test_no_factor_is_put_on_what_no_model_predicts(arm, signal):
+    """A unit or a gear's ratio was said of such channels, with certainty."""
+    robot, log = arm
+    document = identify(IdentifyRequest(robot, (_with_torque(log, UNRELATED[signal]),), PLAIN))
+    assert {row["conflict"] for row in document["conflicts"]} <= {"other_signal"}
+    assert all(row["confidence"] <= 0.5 for row in document["conflicts"])
+    if document["conflicts"]:
+        assert not document["validation"][JOINT]["samples"]
+
+
+@pytest.mark.parametrize("value", [0.0, -3.3])
+def test_a_torque_that_is_constant_is_not_exchanged_with_another(arm, value):
+    """Constant, it fits any joint through its offset; the exchange was named with certainty."""
+    robot, log = arm
+    spoilt = _with_torque(log, lambda rows, _: np.full(len(rows.time), value))
+    document = identify(IdentifyRequest(robot, (spoilt,), PLAIN))
+    assert not document["conflicts"]
+    assert any("not measured" in doubt for doubt in document["doubts"])
