@@ -12,6 +12,7 @@ ConflictName = Literal[
     "channels_swapped",
     "mounting",
     "zero_quarter_turn",
+    "zero_offset",
     "convention",
     "link_length",
     "gravity_compensated",

@@ -16,6 +16,7 @@ from .kinds.other_signal import OtherSignal
 from .kinds.position_sign import PositionSign
 from .kinds.torque_sign import TorqueSign
 from .kinds.unit import Unit
+from .kinds.zero_offset import ZeroOffset
 from .kinds.zero_quarter_turn import ZeroQuarterTurn
 
 _LISTED: tuple[Conflict, ...] = (
@@ -25,6 +26,7 @@ _LISTED: tuple[Conflict, ...] = (
     GravityCompensated(),
     ChannelsSwapped(),
     ZeroQuarterTurn(),
+    ZeroOffset(),
     Convention(),
     LinkLength(),
     OtherSignal(),

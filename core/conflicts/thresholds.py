@@ -152,6 +152,23 @@ class Unit:
 
 
 @dataclass(frozen=True)
+class Zero:
+    """Search the angle of a joint's zero. All are set by hand."""
+
+    coarse: tuple[float, ...] = tuple(np.radians((-90.0, -45.0, 0.0, 45.0, 90.0, 180.0)))
+    """Angles, rad, that are tried first; quarter turns are hypotheses of their own."""
+    promising: float = 0.05
+    """Natural logarithm by which the mean error has to fall at one of them for it to be refined."""
+    around: float = np.radians(60.0)
+    """Angle, rad, on either side of the best within which it is refined."""
+    tolerance: float = np.radians(0.2)
+    """Angle, rad, to which it is refined."""
+    least: float = np.radians(12.0)
+    """Angle, rad, about the described zero below which an error is a cause with a size, and no conflict; and
+    about a quarter turn, which is then meant."""
+
+
+@dataclass(frozen=True)
 class PositionForces:
     """Describe forces that follow positions, as the rival of a correction. All are set by hand."""
 
@@ -178,4 +195,4 @@ class OtherSignal:
 
 DOUBT, TRIAL, DECISION, MOUNTING = Doubt(), Trial(), Decision(), Mounting()
 TIME_BASE, LENGTH, RATIO, UNIT = TimeBase(), Length(), Ratio(), Unit()
-POSITION_FORCES, OTHER_SIGNAL = PositionForces(), OtherSignal()
+POSITION_FORCES, OTHER_SIGNAL, ZERO = PositionForces(), OtherSignal(), Zero()

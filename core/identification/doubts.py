@@ -15,6 +15,7 @@ from ..log.model import Defect
 from ..regressor.factor import REGRESSOR
 from ..robot.extent import Extent
 from ..robot.joint_units import prismatic_joints
+from ..robot.plausibility import unit_warnings
 from ..validation.quality import quality
 from .choice import BIASED
 from .result import Identification
@@ -58,6 +59,7 @@ or a placeholder's. Described masses are seldom wrong by more than two or three.
 def doubts(found: Identification) -> tuple[str, ...]:
     """List the warnings."""
     return (
+        *_description(found),
         *_logs(found),
         *_scale(found),
         *contradictions(found),
@@ -71,6 +73,11 @@ def doubts(found: Identification) -> tuple[str, ...]:
 def contradictions(found: Identification) -> tuple[str, ...]:
     """List the warnings that say that the model does not fit the log."""
     return (*_cost(found), *_signs(found), *_unexplained(found), *_held_out(found))
+
+
+def _description(found: Identification) -> list[str]:
+    """Repeat what says that the description is in other units; of several lengths or angles the first."""
+    return [f"The description: {one}" for one in unit_warnings(found.base.model.robot)[:1]]
 
 
 def _not_converged(found: Identification) -> list[str]:

@@ -14,6 +14,7 @@ from .right_angles import SAID_FROM, meant_angle, nearest_right_angle
 
 _ALMOST = 2e-3
 """An angle (rad) this near a right angle is asked about: 1.57 and 1.571 miss one by 0.8 and 0.2 mrad."""
+_BEYOND_A_TURN = "more than a turn"
 _NAMED = 8
 """How many angles a sentence names before it counts the rest."""
 
@@ -33,6 +34,20 @@ def plausibility_warnings(robot: RobotModel) -> tuple[str, ...]:
     for number, joint in enumerate(robot.joints, start=1):
         found += _about_limits(number, joint)
     return tuple(found + _about_letters(robot) + _about_bodies(robot))
+
+
+def unit_warnings(robot: RobotModel) -> tuple[str, ...]:
+    """List those that say that angles or lengths seem to be in another unit: no fit of such a robot counts.
+
+    Examples
+    --------
+    >>> from veritorque.core.robot.builtin import builtin_robot
+    >>> unit_warnings(builtin_robot("yumi"))
+    ()
+    """
+    angles = [remark for remark in robot.remarks if _BEYOND_A_TURN in remark]
+    lengths = [_about_lengths(number, link) for number, link in enumerate(robot.links, start=1)]
+    return (*angles, *(warning for own in lengths for warning in own))
 
 
 def _about_gravity(robot: RobotModel) -> list[str]:
@@ -64,7 +79,7 @@ def angle_remarks(angles: Mapping[str, float]) -> list[str]:
     ['angles are taken for the right angles they are written for: joint 2: alpha 1.5708 rad']
     """
     found = [
-        f"{name} is {angle:.4g} rad, more than a turn; were degrees meant?"
+        f"{name} is {angle:.4g} rad, {_BEYOND_A_TURN}; were degrees meant?"
         for name, angle in angles.items()
         if abs(angle) > 2.0 * np.pi
     ]

@@ -60,6 +60,19 @@ def channels_swapped(robot: RobotModel, log: JointLog, rng: np.random.Generator)
     return Spoilt(robot, assigned(log, plain), "channels_swapped", (first + 1, second + 1), channel)
 
 
+def other_order(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
+    """Log the joints backwards, or with an inner one last as a controller's added axis is."""
+    joints = list(range(log.joints))
+    if log.joints > 3 and rng.random() < 0.7:
+        joints.append(joints.pop(int(rng.integers(1, log.joints - 2))))
+    else:
+        joints.reverse()
+    plain = Assignment.as_measured(log.joints)
+    spoilt = replace(plain, position=plain.position.in_order(joints), torque=plain.torque.in_order(joints))
+    moved = tuple(place + 1 for place, joint in enumerate(joints) if place != joint)
+    return Spoilt(robot, assigned(log, spoilt), "channels_swapped", moved, "both")
+
+
 def mounting(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
     """Describe the robot as mounted otherwise: on a wall, below a ceiling, or leaning by some angle."""
     usual = Rotation.from_euler(
@@ -77,6 +90,14 @@ def zero_quarter_turn(robot: RobotModel, log: JointLog, rng: np.random.Generator
     angle = np.radians(float(rng.choice([90.0, 180.0, -90.0])))
     spoilt = replace(plain, position=plain.position.moved(angle, joint))
     return Spoilt(robot, assigned(log, spoilt), "zero_quarter_turn", (joint + 1,), "position")
+
+
+def zero_offset(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
+    """Move the zero of one joint by some angle that is no quarter turn."""
+    plain, joint = Assignment.as_measured(log.joints), _joint(robot, rng)
+    angle = np.radians(rng.uniform(15.0, 75.0) + 90.0 * float(rng.integers(4)))
+    spoilt = replace(plain, position=plain.position.moved(angle, joint))
+    return Spoilt(robot, assigned(log, spoilt), "zero_offset", (joint + 1,), "position")
 
 
 def unit(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
@@ -145,8 +166,10 @@ SPOILERS: Mapping[str, Spoiler] = {
         torque_sign,
         position_sign,
         channels_swapped,
+        other_order,
         mounting,
         zero_quarter_turn,
+        zero_offset,
         unit,
         gear_ratio,
         motor_side,

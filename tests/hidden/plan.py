@@ -48,6 +48,7 @@ EFFECT_OF = {
     "mounting": "gravity_misalignment",
     "link_length": "kinematic_error",
     "zero_quarter_turn": "encoder_offset",
+    "zero_offset": "encoder_offset",
 }
 """The effect that a corrected set-up is, where it is a large one of a listed kind."""
 

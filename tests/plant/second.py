@@ -210,7 +210,7 @@ def _changed(
     for one in changes:
         joint = one.joint
         pushed[joint] += one.push(time, angle, rate)
-        load = float(command[joint] - friction[joint])
+        load = float(command[joint] - friction[joint] - body.viscous[joint] * rate[joint])
         level[joint] = one.level(float(level[joint]), time, float(angle[joint]), float(rate[joint]), load)
     return replace(reduce(lambda own, one: one.body(own, time), changes, body), coulomb=level), pushed
 

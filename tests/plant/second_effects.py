@@ -38,7 +38,7 @@ class Change:
         return 0.0
 
     def level(self, level: float, _time: float, _angle: float, _rate: float, _load: float) -> float:
-        """Give the level of the joint's dry friction, N m."""
+        """Give the level of the joint's dry friction, N m, where the gear transmits a load, N m."""
         return level
 
     def body(self, body: Any, _time: float) -> Any:
@@ -148,6 +148,7 @@ class Contact(Change):
     """Push the joint for one to two seconds, once."""
 
     cause = "external_contact"
+    local = False
 
     def push(self, time: float, _angle: np.ndarray, _rate: np.ndarray) -> float:
         """Push smoothly."""

@@ -5,6 +5,7 @@ import pinocchio as pin
 import pytest
 
 from tests.plant import second
+from tests.plant.second_effects import ALL
 
 
 @pytest.fixture(scope="module")
@@ -39,3 +40,17 @@ def test_a_joint_that_rests_stays_at_rest_below_its_level_and_moves_above(body):
         after, friction = second._moved(body, angle, rate, weight + share * body.coulomb, np.zeros(2))
         assert (np.abs(after) > 1e-9).any() == moves
         assert (np.abs(friction) <= body.coulomb * (1.0 + 1e-12)).all()
+
+
+@pytest.mark.parametrize("effect", ALL, ids=lambda effect: effect.cause)
+def test_every_effect_changes_what_is_logged(body, effect):
+    reference = second._reference(np.random.default_rng(5), 1.0)
+    drive = second.Drive(15.0, 1e-9)
+    change = effect(0, 0.4, 0.7, 30.0)
+    logs = []
+    for changes in ((), (change,)):
+        position, torque = second._simulate(second._World(body, reference, drive, changes), 3.0)
+        log = (np.arange(len(position)) / second.RATE_HZ, position, torque)
+        logs.append(np.hstack(change.logged(log)[1:] if changes else log[1:]))
+    differ = np.abs(logs[1] - logs[0]).max() > 1e-3
+    assert differ == (effect.cause not in {"payload_change", "external_contact"})  # these come later

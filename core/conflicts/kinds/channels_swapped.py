@@ -1,4 +1,4 @@
-"""Test whether the channels of two joints are exchanged."""
+"""Test whether the channels of two joints are exchanged, or those of more are in another usual order."""
 
 from collections.abc import Iterator
 from itertools import combinations
@@ -11,11 +11,13 @@ from ..setup import Setup
 from ..thresholds import DOUBT
 from ..trial import Trials
 
+_PAIR = 2
+"""Channels that one exchange moves."""
 _WORDS: dict[Channel, str] = {"torque": "torques", "position": "positions", "both": "channels"}
 
 
 class ChannelsSwapped(Conflict):
-    """Exchange the torques, the positions or both of two joints; neighbours come first."""
+    """Exchange the torques, the positions or both of two joints, neighbours first; or both of more joints."""
 
     name = "channels_swapped"
     title = "Exchanged channels"
@@ -43,6 +45,43 @@ class ChannelsSwapped(Conflict):
                     f"the {named} are exchanged",
                     f"exchange the {named}",
                 )
+        for order in _orders(setup.joints):
+            columns = ", ".join(str(order.index(column) + 1) for column in range(setup.joints))
+            yield Hypothesis(
+                self.name,
+                tuple(joint + 1 for joint, column in enumerate(order) if column != joint),
+                "both",
+                _ordered(setup, order),
+                f"the channels come in another order: they are those of joints {columns}",
+                f"map the columns {', '.join(str(column + 1) for column in order)} in this order",
+            )
+
+
+def _orders(joints: int) -> list[tuple[int, ...]]:
+    """List orders that differ by more than one pair: backwards, and with one of them moved first or last.
+
+    An axis that was added to an arm comes last in a controller's tables, wherever it stands in the arm. An
+    order gives the column of every joint, from 0.
+    """
+    usual = tuple(range(joints))
+    orders = [usual[::-1]]
+    for joint in usual:
+        others = usual[:joint] + usual[joint + 1 :]
+        for place in (0, joints - 1):
+            order = (*others[:place], joint, *others[place:])
+            orders += [order, tuple(order.index(column) for column in usual)]
+    return [order for order in dict.fromkeys(orders) if _differing(order) > _PAIR]
+
+
+def _differing(order: tuple[int, ...]) -> int:
+    return sum(column != joint for joint, column in enumerate(order))
+
+
+def _ordered(setup: Setup, order: tuple[int, ...]) -> Setup:
+    """Take for every joint the channels of another."""
+    own = setup.assignment
+    setup = setup.with_position(own.position.in_order(order))
+    return setup.with_torque(own.torque.in_order(order))
 
 
 def _sound(setup: Setup, trials: Trials) -> JointMarks:

@@ -50,8 +50,12 @@ class Channels:
         """Exchange the channels of two joints, with their factors and offsets."""
         order = list(range(len(self.source)))
         order[first], order[second] = second, first
-        factor, offset = (tuple(values[place] for place in order) for values in (self.factor, self.offset))
-        return Channels(tuple(self.source[place] for place in order), factor, offset)
+        return self.in_order(order)
+
+    def in_order(self, order: Sequence[int]) -> "Channels":
+        """Take, for every joint, the channel of another, with its factor and offset."""
+        source, factor, offset = zip(*(self.of_joint(joint) for joint in order), strict=True)
+        return Channels(source, factor, offset)
 
     def scaled(self, factor: float, *joints: int) -> "Channels":
         """Multiply the channels of some joints."""
