@@ -17,6 +17,7 @@ ConflictName = Literal[
     "link_length",
     "gravity_compensated",
     "time_base",
+    "time_offset",
     "unit",
     "gear_ratio",
     "other_signal",

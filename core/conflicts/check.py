@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from itertools import takewhile
 
+import numpy as np
+
 from ..estimate.problem import Problem
 from ..log.model import JointLog
 from .kinds.gear_ratio import GearRatio
@@ -11,8 +13,9 @@ from .samples import sampled
 from .search import find_conflicts
 from .setup import Setup
 from .steps import least_squares_gain
-from .thresholds import DECISION
+from .thresholds import DECISION, DOUBT
 from .time_base import stamp_factor
+from .time_offset import TimeOffset, time_offset
 from .trial import Trials
 
 
@@ -24,6 +27,8 @@ class Conflicts:
     """Conflicts that corrections remove, in the order in which they were found."""
     stamp_factors: tuple[float | None, ...] = ()
     """Per log, the factor by which its stamps' steps are too long; None where nothing contradicts them."""
+    offsets: tuple[TimeOffset | None, ...] = ()
+    """Per log, by how much its torques come later than its positions; None where they do not."""
     applied: bool = False
     """Whether the corrections were applied before anything else was computed."""
     searched: bool = True
@@ -36,7 +41,7 @@ class Conflicts:
     @property
     def is_open(self) -> bool:
         """Tell whether something disagrees that was not corrected."""
-        return (bool(self.found) and not self.applied) or any(self.stamp_factors)
+        return (bool(self.found) and not self.applied) or any(self.stamp_factors) or any(self.offsets)
 
     @property
     def estimates_a_factor(self) -> bool:
@@ -61,10 +66,23 @@ def check(
     factor = next((factor for factor in factors if factor is not None), None)
     if factor is None:
         found = find_conflicts(described, trials)
-        return Conflicts(found, factors, promising=_promising(found, described, trials))
+        offsets = _offsets(problem, found, described, trials)
+        found = () if any(offsets) else found
+        return Conflicts(found, factors, offsets, promising=_promising(found, described, trials))
     by_velocity = find_conflicts(described.with_clock(1.0 / factor), trials)
     found = _alike(find_conflicts(described, trials), by_velocity) if by_velocity else ()
     return Conflicts(found, factors)
+
+
+def _offsets(
+    problem: Problem, found: tuple[FoundConflict, ...], described: Setup, trials: Trials
+) -> tuple[TimeOffset | None, ...]:
+    """Look for clocks that differ, log by log, where the model fails and no correction surely helps."""
+    sure = any(step.confidence > DECISION.most_where_unsure for step in found)
+    present = None if sure else trials.outcome(trials.equations(described))
+    if present is None or float(np.max(present.errors)) <= DOUBT.unexplained:
+        return ()
+    return tuple(time_offset(motion, described, trials.terms) for motion in problem.motions)
 
 
 def _promising(found: tuple[FoundConflict, ...], described: Setup, trials: Trials) -> float:

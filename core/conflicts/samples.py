@@ -91,20 +91,21 @@ def _taken(
     fitted = [block for block in range(motion.blocks) if (number, block) not in held_out]
     for tile in motion.tiles(fitted):
         taken = np.concatenate([np.arange(kept.start, kept.stop, stride) for _, kept in tile.parts()])
-        series = {
-            "position": tile.state.position,
-            "velocity": tile.state.velocity,
-            "acceleration": tile.state.acceleration,
-            "torque": tile.torque,
-            "direction": tile.state.direction,
-        }
         judged = np.searchsorted(fitted, tile.block[taken]) % TRIAL.judged_every == 1
         yield {
-            **{name: _filtered(tile, values)[taken] for name, values in series.items()},
+            **{name: values[taken] for name, values in filtered_series(tile).items()},
             "usable": tile.usable[taken],
             "judged": judged,
         }
 
 
-def _filtered(tile: Tile, series: JointSeries) -> InstantSeries:
-    return tile.filtered(np.ascontiguousarray(series.T)).T
+def filtered_series(tile: Tile) -> dict[str, InstantSeries]:
+    """Filter and decimate motion and torque of a tile alike."""
+    series = {
+        "position": tile.state.position,
+        "velocity": tile.state.velocity,
+        "acceleration": tile.state.acceleration,
+        "torque": tile.torque,
+        "direction": tile.state.direction,
+    }
+    return {name: tile.filtered(np.ascontiguousarray(own.T)).T for name, own in series.items()}

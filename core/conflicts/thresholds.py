@@ -90,6 +90,16 @@ class TimeBase:
 
 
 @dataclass(frozen=True)
+class TimeOffset:
+    """Search an offset between the clocks of positions and torques. All are set by hand."""
+
+    furthest: float = 2.0
+    """Seconds either way."""
+    least: float = 0.05
+    """Seconds below which it is a delay, a cause with a size."""
+
+
+@dataclass(frozen=True)
 class Length:
     """Search the error of a length. All are set by hand."""
 
@@ -194,5 +204,5 @@ class OtherSignal:
 
 
 DOUBT, TRIAL, DECISION, MOUNTING = Doubt(), Trial(), Decision(), Mounting()
-TIME_BASE, LENGTH, RATIO, UNIT = TimeBase(), Length(), Ratio(), Unit()
+TIME_BASE, TIME_OFFSET, LENGTH, RATIO, UNIT = TimeBase(), TimeOffset(), Length(), Ratio(), Unit()
 POSITION_FORCES, OTHER_SIGNAL, ZERO = PositionForces(), OtherSignal(), Zero()

@@ -9,6 +9,7 @@ from ..conflicts.check import Conflicts
 from ..conflicts.conflict import Hypothesis
 from ..conflicts.path import FoundConflict
 from ..conflicts.setup import Setup
+from ..conflicts.time_offset import TimeOffset
 from ..errors import VeritorqueError
 from ..log.columns.assignment import assigned, mapping_of
 from ..log.model import JointLog
@@ -36,7 +37,12 @@ def conflict_rows(
         for factor, log in zip(conflicts.stamp_factors, logs, strict=True)
         if factor is not None
     ]
-    return [{key: plain(value) for key, value in row.items()} for row in [*fitted, *stamps]]
+    offsets = [
+        _offset_row(offset, log, correction)
+        for offset, log in zip(conflicts.offsets, logs, strict=False)
+        if offset is not None
+    ]
+    return [{key: plain(value) for key, value in row.items()} for row in [*fitted, *stamps, *offsets]]
 
 
 def conflict_sentence(row: dict[str, object]) -> str:
@@ -132,6 +138,32 @@ def _described(setup: Setup, robot: RobotModel) -> dict[str, object]:
 def _clock(factor: float | None, log: JointLog) -> dict[str, object]:
     """Give the part of a mapping that replaces stamps which are too close or too far apart."""
     return {} if factor is None else {"time": None, "rate_hz": log.rate_hz * factor}
+
+
+def _offset_row(offset: TimeOffset, log: JointLog, correction: dict[str, object]) -> dict[str, object]:
+    before, after, late = offset.before, offset.after, offset.seconds > 0.0
+    size = f"{abs(offset.seconds):.3g} s"
+    return {
+        "conflict": "time_offset",
+        "joints": [],
+        "channel": "torque",
+        "confidence": STAMPS_CONFIDENCE,
+        "error_before_percent": 100.0 * np.exp(before.score),
+        "error_after_percent": 100.0 * np.exp(after.score),
+        "joint_errors_before_percent": 100.0 * before.errors,
+        "joint_errors_after_percent": 100.0 * after.errors,
+        "applied": False,
+        "statement": (
+            f"the torques of {log.name} come about {size} {'after' if late else 'before'} the positions that "
+            "they belong to, as where two recorders have two clocks"
+        ),
+        "remedy": (
+            f"let the stamps of the torques begin {size} {'earlier' if late else 'later'} where both are put "
+            "together, or log positions and torques by one clock"
+        ),
+        "correction": correction,
+        "ambiguous_with": [],
+    }
 
 
 def _stamps_row(factor: float, log: JointLog, correction: dict[str, object]) -> dict[str, object]:

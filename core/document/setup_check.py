@@ -62,7 +62,7 @@ def _agreement(found: Identification, conflicts: Conflicts) -> Agreement:
     """
     left_open = bool(conflicts.found) and not conflicts.applied
     failed = any(quality(score.nrmse_of_rms_percent) == "failed" for score in found.validation or found.fit)
-    if left_open or failed or any(conflicts.stamp_factors):
+    if left_open or failed or any(conflicts.stamp_factors) or any(conflicts.offsets):
         return "doubtful"
     return "after_correction" if conflicts.found else "yes"
 

@@ -132,6 +132,17 @@ def time_base(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spo
     return Spoilt(robot, spoilt, "time_base")
 
 
+def time_offset(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
+    """Log the torques by a clock that is 0.08 to 0.8 s late or early."""
+    rows = whole_rows(log)
+    late = float(np.exp(rng.uniform(np.log(0.08), np.log(0.8)))) * float(rng.choice([-1.0, 1.0]))
+    then = rows.time - late
+    inside = (then >= rows.time[0]) & (then <= rows.time[-1])
+    torque = np.stack([np.interp(then[inside], rows.time, own) for own in rows.torque.T], axis=1)
+    spoilt = log_from_arrays(log.name, rows.time[inside], rows.position[inside], torque)
+    return Spoilt(robot, spoilt, "time_offset", (), "torque")
+
+
 def other_signal(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
     """Log in the place of a torque a joint's position or velocity, another torque, or noise."""
     rows, joint, kind = whole_rows(log), _joint(robot, rng), int(rng.integers(4))
@@ -175,6 +186,7 @@ SPOILERS: Mapping[str, Spoiler] = {
         motor_side,
         other_signal,
         time_base,
+        time_offset,
     )
 }
 """The ways to spoil, by the name of the conflict."""
