@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Indices, JointVector, Matrix, Series
+from ..arrays import Indices, JointVector, Matrix, Series, Vector
 from ..log.columns.assignment import Channels
 from .reduced import RIDGE, Reduced
 
@@ -75,15 +75,12 @@ def family(
     squares, torques = np.zeros((2, joints, channels))
     for joint, (rows, columns, measured) in enumerate(zip(whole, columns_of, torque, strict=True)):
         mine = own[columns]
-        basis = _basis(rows[0, mine])
-        left, torque_left = _left(rows[:, ~mine], basis), _left(measured, basis)
-        part, row = np.nonzero(left.any(axis=2))
-        used, at = left[part, row], part * size + place[columns[~mine][row]]
-        products[joint][np.ix_(at, at)] = used @ used.T
-        moments[joint, at] = used @ torque_left.T
-        squares[joint], torques[joint] = (
-            np.einsum("ij,ij->i", each, each) for each in (torque_left, measured)
-        )
+        part, row = np.nonzero(rows[:, ~mine].any(axis=2))
+        at, used = part * size + place[columns[~mine][row]], len(part)
+        left, torques[joint] = _without_own(rows[0, mine], rows[:, ~mine][part, row], measured)
+        products[joint][np.ix_(at, at)] = left[:used, :used]
+        moments[joint, at] = left[:used, used:]
+        squares[joint] = np.diag(left)[used:]
     count = np.array([float(max(measured.shape[1], 1)) for measured in torque])
     shape = joints, len(parts), size
     return RegressorFamily(
@@ -111,17 +108,16 @@ def _own_columns(whole: Sequence[np.ndarray], columns_of: Sequence[Indices]) -> 
     return np.asarray(users == 1.0)
 
 
-def _basis(rows: Series) -> Matrix:
-    """Give orthonormal combinations of rows, as columns, without those that rounding makes."""
-    norms = np.linalg.norm(rows, axis=1)
-    scaled = rows / np.where(norms > 0.0, norms, 1.0)[:, None]
-    combinations, sizes, _ = np.linalg.svd(scaled.T, full_matrices=False)
-    return np.asarray(combinations[:, sizes > np.sqrt(RIDGE)])
-
-
-def _left(rows: np.ndarray, basis: Matrix) -> np.ndarray:
-    """Project a basis out of rows; nothing is left of a row that is but for rounding in its span."""
-    left = rows - (rows @ basis) @ basis.T
-    size, before = (np.einsum("...k,...k->...", each, each) for each in (left, rows))
-    left[size <= RIDGE * before] = 0.0
-    return np.asarray(left)
+def _without_own(own: Series, shared: Series, torque: Series) -> tuple[Matrix, Vector]:
+    """Give the products of shared columns and torques without own ones, and the squares of whole torques."""
+    stacked = np.concatenate([own, shared, torque])
+    products = stacked @ stacked.T
+    squares, count = np.diag(products), len(own)
+    norms = np.sqrt(np.where(squares[:count] > 0.0, squares[:count], 1.0))
+    alone = products[:count, :count] / np.outer(norms, norms) + RIDGE * np.eye(count)
+    beside = products[:count, count:] / norms[:, None]
+    left = products[count:, count:] - beside.T @ np.linalg.solve(alone, beside)
+    # Nothing is left of a row that is but for rounding in the span of the own ones.
+    spanned = np.diag(left) <= RIDGE * squares[count:]
+    left[spanned], left[:, spanned] = 0.0, 0.0
+    return left, squares[-len(torque) :]

@@ -28,7 +28,7 @@ def only_needed(path: Path, described: Setup, trials: Trials) -> Path:
     """
     if not path:
         return path
-    alone, beside = path[-1].after.score, _score_with_forces(path[-1].hypothesis.setup, trials)
+    alone, beside = path[-1].after.score, score_with_forces(path[-1].hypothesis.setup, trials)
     clearly = Margins.of(path[0].before, trials).undecided
     fewer = [_Fewer.of(steps, described, trials) for steps in _choices(path, described)]
     better = [own for own in fewer if own.score < min(alone, beside) - clearly]
@@ -49,7 +49,7 @@ class _Fewer:
     @classmethod
     def of(cls, steps: list[tuple[FoundConflict, Hypothesis]], described: Setup, trials: Trials) -> "_Fewer":
         """Judge the set-up to which they lead."""
-        return cls(steps, _score_with_forces(steps[-1][1].setup if steps else described, trials))
+        return cls(steps, score_with_forces(steps[-1][1].setup if steps else described, trials))
 
     def cost(self) -> float:
         """Give the score, to which the corrections add what they have to gain."""
@@ -88,7 +88,7 @@ def _merged(sets: list[frozenset[Part]]) -> list[frozenset[Part]]:
     return out
 
 
-def _score_with_forces(setup: Setup, trials: Trials) -> float:
+def score_with_forces(setup: Setup, trials: Trials) -> float:
     """Judge a set-up with these forces; the worst of all where it cannot be fitted."""
     beside = beside_forces(trials, setup)
     outcome = beside.outcome(beside.equations(setup))

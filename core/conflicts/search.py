@@ -15,7 +15,7 @@ from .kinds.other_signal import copied_signals
 from .kinds.unit import Unit
 from .path import FoundConflict, Margins, Path, cost, unsure
 from .refinement import refined
-from .rival import only_needed
+from .rival import only_needed, score_with_forces
 from .setup import Setup
 from .steps import Steps, first_steps
 from .thresholds import DECISION, DOUBT, TRIAL
@@ -28,7 +28,7 @@ def find_conflicts(setup: Setup, trials: Trials) -> Path:
     first = copies[-1].hypothesis.setup if copies else setup
     present = trials.outcome(trials.equations(first))
     path = () if present is None else _Search(trials).path(first, present, TRIAL.most_corrections)
-    return copies + _as_sure_as_they_fit(only_needed(refined(path, first, trials), first, trials))
+    return copies + _as_sure_as_they_fit(only_needed(refined(path, first, trials), first, trials), trials)
 
 
 def _without_copies(setup: Setup, trials: Trials) -> Path:
@@ -61,17 +61,19 @@ def _without(own: Hypothesis, before: Outcome) -> Outcome:
     return replace(before, errors=errors)
 
 
-def _as_sure_as_they_fit(path: Path) -> Path:
+def _as_sure_as_they_fit(path: Path, trials: Trials) -> Path:
     """Limit the confidence of corrections after which the model still fails on a joint.
 
-    So too where they leave more than half of an error that is still in doubt: the true one is another.
+    So too where they leave more than half of an error that is still in doubt, also beside forces that follow
+    the positions: the true correction is another.
     """
     if not path:
         return path
-    first, last = path[0].before, path[-1].after
+    before, last = path[0].before, path[-1].after
+    most = max(np.log(DOUBT.unexplained), before.score + np.log(DECISION.least_share))
     fails = float(np.max(last.errors)) > DECISION.failed
-    left = last.score - max(np.log(DOUBT.unexplained), first.score + np.log(DECISION.least_share))
-    return unsure(path) if fails or left > 0.0 else path
+    fails = fails or (last.score > most and score_with_forces(path[-1].hypothesis.setup, trials) > most)
+    return unsure(path) if fails else path
 
 
 @dataclass(frozen=True, eq=False)

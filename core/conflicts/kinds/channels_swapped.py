@@ -45,7 +45,7 @@ class ChannelsSwapped(Conflict):
                     f"the {named} are exchanged",
                     f"exchange the {named}",
                 )
-        for order in _orders(setup.joints):
+        for order in _orders(setup.joints) if setup.assignment == trials.samples.as_measured else ():
             columns = ", ".join(str(order.index(column) + 1) for column in range(setup.joints))
             yield Hypothesis(
                 self.name,
