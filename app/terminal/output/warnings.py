@@ -17,8 +17,10 @@ def print_warnings(console: Console, result: Mapping[str, Any]) -> None:
             console.print(f"[bold red]{escape(heading)}[/]")
             for sentence in sentences:
                 console.print(Padding(escape(sentence), (0, 0, 0, 3), expand=False))
-        console.print(Padding(f"{escape(conflict.applied)} Correction to paste:", (0, 0, 0, 3), expand=False))
-        console.print(conflict.correction, markup=False, highlight=False, soft_wrap=True)
+        ends = " Correction to paste:" if conflict.correction else ""
+        console.print(Padding(f"{escape(conflict.applied)}{ends}", (0, 0, 0, 3), expand=False))
+        if conflict.correction:
+            console.print(conflict.correction, markup=False, highlight=False, soft_wrap=True)
         console.print()
     for warning in other_warnings(result):
         console.print(f"[yellow]Warning:[/] {escape(warning)}")

@@ -18,7 +18,7 @@ from dataclasses import dataclass, field
 
 from ...errors import LogError
 from ...fields import Fields
-from ..channels import CHANNELS, TIME, UNITS
+from ..channels import CHANNELS, EFFORTS, TIME, UNITS
 
 RATE = "rate_hz"
 MAX_MAPPED_COLUMNS = 64
@@ -45,7 +45,8 @@ _CHANNEL_FIELDS = {
         if channel == TIME
         else {
             "columns": f"a list of 1 to {MAX_MAPPED_COLUMNS} names",
-            "scale": "a number other than 0, or a list with one per column (of counts, %: 1 in SI)",
+            "scale": "a number other than 0, or a list with one per column (of counts, %: 1 in SI); "
+            "a 0 in a list leaves a joint's torque or current out",
             "offset": "a number, or a list with one per column",
         }
     )
@@ -140,7 +141,7 @@ def _channel(top: Fields, channel: str) -> ChannelRequest:
     if any(unit and UNITS[channel][unit].needs_scale for unit in units):
         fields.required("scale")
     scales = _numbers(fields, "scale", 1.0, len(columns))
-    if 0.0 in scales:
+    if 0.0 in scales and (channel not in EFFORTS or not any(scales)):
         fields.refuse("scale", "is zero")
     return ChannelRequest(columns, units, scales, _numbers(fields, "offset", 0.0, len(columns)))
 

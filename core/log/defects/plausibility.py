@@ -67,18 +67,17 @@ def _unusual(channel: str, size: float, unit: str, *, whole: bool) -> str:
 
 
 def _missing_torques(facts: Facts) -> list[Defect]:
-    if "torque" not in facts.low:
-        return []
-    dead = np.flatnonzero(facts.span("torque") == 0.0)
+    effort = next(name for name in EFFORTS if name in facts.low)
+    dead = np.flatnonzero(facts.span(effort) == 0.0)
     return [
         Defect(
             "missing_torque",
-            "torque",
+            effort,
             int(joint) + 1,
             facts.samples,
             ((facts.start, facts.start + facts.duration),),
-            f"Joint {joint + 1}'s torque is {facts.low['torque'][joint]:g} "
-            f"{facts.units['torque'][int(joint)]} throughout, not measured: it is not used.",
+            f"Joint {joint + 1}'s {effort} is {facts.low[effort][joint]:g} "
+            f"{facts.units[effort][int(joint)]} throughout, not measured: it is not used.",
         )
         for joint in dead
     ]

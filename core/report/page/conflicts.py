@@ -15,7 +15,7 @@ class Disagreement(NamedTuple):
     applied: str
     """Whether the results are those of the corrected set-up, as a sentence."""
     correction: str
-    """The correction as JSON."""
+    """The correction as JSON; empty where nothing can be pasted."""
 
 
 def disagreements(document: Document) -> list[Disagreement]:
@@ -61,7 +61,7 @@ def _alternative(other: Document) -> str:
 def _correction(correction: Mapping[str, Any]) -> str:
     """Write a correction as JSON, a line per channel or joint; empty parts are nothing to paste."""
     held = {name: part for name, part in correction.items() if part}
-    return _lines(held, 2)
+    return _lines(held, 2) if held else ""
 
 
 def _lines(value: object, levels: int, indent: str = "") -> str:

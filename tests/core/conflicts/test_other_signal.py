@@ -8,7 +8,7 @@ import pytest
 from tests.core.estimate.worlds import swing, true_parameters
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.log.model import JointLog, LogRows, whole_rows
-from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.log.reader import log_from_arrays, read_log
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.model import RobotModel
 from veritorque.core.study import IdentifyRequest, identify
@@ -85,3 +85,22 @@ def test_a_torque_that_is_constant_is_not_exchanged_with_another(arm, value):
     document = identify(IdentifyRequest(robot, (spoilt,), PLAIN))
     assert not document["conflicts"]
     assert any("not measured" in doubt for doubt in document["doubts"])
+
+
+def test_the_correction_leaves_the_torque_out_of_a_file_that_is_read_by_it(arm, tmp_path):
+    robot, log = arm
+    rows = whole_rows(_with_torque(log, COPIES["its velocity"]))
+    names = ["t", *(f"q{joint}" for joint in (1, 2, 3)), *(f"tau{joint}" for joint in (1, 2, 3))]
+    path = tmp_path / "log.csv"
+    table = np.column_stack([rows.time, rows.position, rows.torque])
+    np.savetxt(path, table, delimiter=",", header=",".join(names), comments="")
+    mapping = {
+        "time": {"column": "t", "unit": "s"},
+        "position": {"columns": names[1:4], "unit": "rad"},
+        "torque": {"columns": names[4:], "unit": "N m"},
+    }
+    [row] = identify(IdentifyRequest(robot, (read_log(path, mapping=mapping),), PLAIN))["conflicts"]
+    again = identify(IdentifyRequest(robot, (read_log(path, mapping=row["correction"]["mapping"]),), PLAIN))
+    assert not again["conflicts"]
+    assert again["validation"][JOINT]["samples"] == 0
+    assert again["validation"][0]["quality"] == "good"

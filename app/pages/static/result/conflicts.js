@@ -24,9 +24,12 @@ function card(job, text, conflicts) {
   return element("section", { class: "card conflict", "aria-label": "Robot and log disagree" },
     conflicts.map(entry),
     element("p", {}, COMPUTED[applied === conflicts.length ? "with" : applied ? "partly" : "without"]),
-    correctionActions(job, correction, edits(correction), text),
-    element("details", {}, element("summary", {}, "Correction"), element("pre", { tabindex: "0" }, element("code", {}, text))));
+    text === NOTHING ? null : correctionActions(job, correction, edits(correction), text),
+    text === NOTHING ? null : element("details", {}, element("summary", {}, "Correction"), element("pre", { tabindex: "0" }, element("code", {}, text))));
 }
+
+// The text of a correction that holds nothing to paste: what disagrees is corrected outside.
+const NOTHING = "{}";
 
 const COMPUTED = {
   with: "All results below are computed with this correction. The stored log and robot are still as they were uploaded.",
