@@ -28,6 +28,8 @@ class Change:
 
     cause: ClassVar[str] = ""
     local: ClassVar[bool] = True
+    first_only: ClassVar[bool] = False
+    """Whether no log shows it on the last joint."""
     joint: int
     size: float
     phase: float
@@ -102,14 +104,14 @@ class UnevenFriction(Change):
         return level * (1.0 + self.size * np.sin((2 + round(self.phase)) * angle + 6.0 * self.phase))
 
 
-class OneSidedFriction(Change):
-    """Let friction be larger in one direction."""
+class OneSidedDrag(Change):
+    """Let drag be larger in one direction. Dry friction that is would be an offset of the torque."""
 
     cause = "friction_asymmetric"
 
-    def level(self, level: float, _time: float, _angle: float, rate: float, _load: float) -> float:
-        """Take one side's level."""
-        return level * (1.0 + self.size * (1.0 if rate > 0.0 else -1.0))
+    def push(self, _time: float, _angle: np.ndarray, rate: np.ndarray) -> float:
+        """Brake forwards, and help backwards."""
+        return -0.1 * self.size * self.scale * abs(float(rate[self.joint]))
 
 
 class BentViscous(Change):
@@ -190,9 +192,10 @@ class Eccentric(Change):
 
 
 class Offset(Change):
-    """Let the encoder's zero be off by up to 0.15 rad."""
+    """Let the encoder's zero be off by up to 0.15 rad. The last joint's would turn its body alike."""
 
     cause = "encoder_offset"
+    first_only = True
 
     def seen(self, angle: np.ndarray) -> np.ndarray:
         """Shift the zero."""
@@ -303,7 +306,7 @@ ALL: tuple[type[Change], ...] = (
     LoadFriction,
     Warming,
     UnevenFriction,
-    OneSidedFriction,
+    OneSidedDrag,
     BentViscous,
     Ripple,
     Spring,
@@ -326,7 +329,7 @@ def draw_changes(rng: np.random.Generator, scales: np.ndarray) -> tuple[Change, 
     kinds = rng.permutation(len(ALL))[: 1 + (rng.random() < 1.0 / 3.0)]
     drawn = []
     for kind in kinds:
-        joint = int(rng.integers(len(scales)))
+        joint = 0 if ALL[kind].first_only else int(rng.integers(len(scales)))
         size = float(np.exp(rng.uniform(*np.log(SHARES))))
         drawn.append(ALL[kind](joint, size, float(rng.random()), float(scales[joint])))
     return tuple(drawn)

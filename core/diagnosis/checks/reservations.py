@@ -55,7 +55,8 @@ def beside_dead_zones(findings: Sequence[Finding]) -> list[Finding]:
     """Limit findings on joints of which a dead zone of the torque accounts for more than they explain.
 
     What the channel keeps back is a torque of the load and of the direction of motion, as friction is, and
-    comes and goes, as contacts do. A transient cause acts on all joints before its own.
+    comes and goes, as contacts do. A transient cause acts on all joints before its own. A gain is one against
+    the other joints: on which of them the torque is too small no log tells.
     """
     zones = {one.joints[0]: one.explained_fraction for one in findings if one.cause == TorqueDeadZone.id}
 
@@ -64,6 +65,7 @@ def beside_dead_zones(findings: Sequence[Finding]) -> list[Finding]:
         if member is None:
             return finding
         reach = range(1, max(finding.joints) + 1) if member.cause.traits.transient else finding.joints
+        reach = zones if finding.cause == TorqueGain.id else reach
         spoilt = max((zones.get(joint, 0.0) for joint in reach), default=0.0)
         return as_doubtful(finding) if spoilt > finding.explained_fraction else finding
 
