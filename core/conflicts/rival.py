@@ -11,9 +11,11 @@ from itertools import combinations
 
 import numpy as np
 
+from ..arrays import JointMarks
 from .conflict import Hypothesis
 from .path import FoundConflict, Margins, Path, price, unsure
 from .position_forces import beside_forces
+from .reduced import mean_log
 from .refinement import judged_again
 from .setup import Part, Setup
 from .thresholds import DECISION
@@ -88,8 +90,10 @@ def _merged(sets: list[frozenset[Part]]) -> list[frozenset[Part]]:
     return out
 
 
-def score_with_forces(setup: Setup, trials: Trials) -> float:
-    """Judge a set-up with these forces; the worst of all where it cannot be fitted."""
+def score_with_forces(setup: Setup, trials: Trials, used: JointMarks | None = None) -> float:
+    """Judge a set-up with these forces, on some joints; the worst of all where it cannot be fitted."""
     beside = beside_forces(trials, setup)
     outcome = beside.outcome(beside.equations(setup))
-    return np.inf if outcome is None else outcome.score
+    if outcome is None:
+        return np.inf
+    return outcome.score if used is None else float(mean_log(outcome.errors[used]))

@@ -10,10 +10,12 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from .conflict import Hypothesis
+from .copies import only_real_copies, without_copies
 from .kinds.gear_ratio import GearRatio
-from .kinds.other_signal import copied_signals
+from .kinds.other_signal import OtherSignal
 from .kinds.unit import Unit
 from .path import FoundConflict, Margins, Path, cost, unsure
+from .reduced import mean_log
 from .refinement import refined
 from .rival import only_needed, score_with_forces
 from .setup import Setup
@@ -24,41 +26,12 @@ from .trial import Outcome, Trials
 
 def find_conflicts(setup: Setup, trials: Trials) -> Path:
     """Search for corrections of a set-up, one after the other; the last one's set-up holds them all."""
-    copies = _without_copies(setup, trials)
+    copies = without_copies(setup, trials)
     first = copies[-1].hypothesis.setup if copies else setup
     present = trials.outcome(trials.equations(first))
     path = () if present is None else _Search(trials).path(first, present, TRIAL.most_corrections)
-    return copies + _as_sure_as_they_fit(only_needed(refined(path, first, trials), first, trials), trials)
-
-
-def _without_copies(setup: Setup, trials: Trials) -> Path:
-    """Leave out the torques that are copies of other signals: these show it whatever the model says."""
-    path: list[FoundConflict] = []
-    while copies := next(copied_signals(setup, trials), ()):
-        before = trials.outcome(trials.equations(setup))
-        fitted = [(own, trials.outcome(trials.equations(own.setup))) for own in copies]
-        ranked = sorted(((own, after) for own, after in fitted if after is not None), key=_score_after)
-        if not ranked or before is None:
-            break
-        (own, after), *others = ranked
-        margins = Margins.of(before, trials)
-        worse = [(other, outcome.score - after.score) for other, outcome in others]
-        alike = tuple(other for other, more in worse if more < margins.undecided)
-        against = sum(margins.likelihood(more) for _, more in worse if more >= margins.undecided)
-        path.append(FoundConflict(own, _without(own, before), after, 1.0 / (1.0 + against), alike))
-        setup = own.setup
-    return tuple(path)
-
-
-def _score_after(pair: tuple[Hypothesis, Outcome]) -> float:
-    return pair[1].score
-
-
-def _without(own: Hypothesis, before: Outcome) -> Outcome:
-    """Take nothing for predicted of a torque that is left out, before as after."""
-    errors = before.errors.copy()
-    errors[[joint - 1 for joint in own.joints]] = 1.0
-    return replace(before, errors=errors)
+    path = copies + only_needed(refined(path, first, trials), first, trials)
+    return _as_sure_as_they_fit(only_real_copies(path, trials), trials)
 
 
 def _as_sure_as_they_fit(path: Path, trials: Trials) -> Path:
@@ -69,11 +42,19 @@ def _as_sure_as_they_fit(path: Path, trials: Trials) -> Path:
     """
     if not path:
         return path
-    before, last = path[0].before, path[-1].after
-    most = max(np.log(DOUBT.unexplained), before.score + np.log(DECISION.least_share))
-    fails = float(np.max(last.errors)) > DECISION.failed
-    fails = fails or (last.score > most and score_with_forces(path[-1].hypothesis.setup, trials) > most)
-    return unsure(path) if fails else path
+    before, last = path[0].before, path[-1]
+    used = np.array(last.hypothesis.setup.assignment.torque.factor) != 0.0
+    score = float(mean_log(last.after.errors[used]))
+    most = max(np.log(DOUBT.unexplained), float(mean_log(before.errors[used])) + np.log(DECISION.least_share))
+    fails = float(np.max(last.after.errors[used], initial=0.0)) > DECISION.failed
+    fails = fails or (score > most and score_with_forces(last.hypothesis.setup, trials, used) > most)
+    return unsure(path) if fails else tuple(_as_sure_as_absent(step) for step in path)
+
+
+def _as_sure_as_absent(step: FoundConflict) -> FoundConflict:
+    """Limit the confidence that what is not predicted is no torque: it may be one of an unknown cause."""
+    is_absent = step.hypothesis.conflict == OtherSignal.name and not step.hypothesis.expected
+    return unsure((step,))[0] if is_absent else step
 
 
 @dataclass(frozen=True, eq=False)

@@ -199,6 +199,8 @@ class OtherSignal:
     which the torque is a copy; and relative error of the factor. A load is no single one of these."""
     predictable: float = 0.2
     """Share of the variance of a torque that can be predicted, below which it is none of this joint."""
+    waves: int = 8
+    """Half cosine waves of time over all samples, by which slow changes are predicted."""
     rank: float = 1e-6
     """Relative singular value below which columns are dependent."""
 

@@ -9,9 +9,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...arrays import InstantSeries, JointSeries, SampleMask, Vector
+from ...arrays import InstantSeries, JointSeries, SampleMask, Series, Vector
 from ..conflict import Conflict, Hypothesis
-from ..equations import Equations
+from ..equations import Equations, Rows
 from ..position_forces import beside_forces
 from ..samples import Samples
 from ..setup import Setup
@@ -37,7 +37,7 @@ class OtherSignal(Conflict):
             return
         free = beside_forces(trials, setup).equations(setup)
         for joint in asked:
-            if _predictable(free, joint) < OTHER_SIGNAL.predictable:
+            if _predictable(free, joint, trials.samples.judged) < OTHER_SIGNAL.predictable:
                 yield _left_out(setup, joint, "follows neither its motion nor its position")
 
 
@@ -49,15 +49,15 @@ def copied_signals(setup: Setup, trials: Trials) -> Iterator[tuple[Hypothesis, .
     for joint in measured:
         signal = _repeated(torque[:, joint], samples, samples.usable[:, joint])
         if signal:
-            yield (_left_out(setup, joint, f"is {signal}"),)
+            yield (_left_out(setup, joint, f"is {signal}", copied=True),)
             continue
         for other in measured:
             rows = samples.usable[:, joint] & samples.usable[:, other]
             if other > joint and _is_copy(torque[:, [other]], torque[:, joint], rows, (1.0,)).any():
                 both = f"is that of joint {{}} as well: torques of joints {joint + 1} and {other + 1} are one"
                 yield (
-                    _left_out(setup, joint, both.format(other + 1)),
-                    _left_out(setup, other, both.format(joint + 1)),
+                    _left_out(setup, joint, both.format(other + 1), copied=True),
+                    _left_out(setup, other, both.format(joint + 1), copied=True),
                 )
 
 
@@ -67,7 +67,7 @@ def _measured(setup: Setup, trials: Trials) -> list[int]:
     return [joint for joint in range(setup.joints) if moves[joint] and factor[joint] != 0.0]
 
 
-def _left_out(setup: Setup, joint: int, says: str) -> Hypothesis:
+def _left_out(setup: Setup, joint: int, says: str, *, copied: bool = False) -> Hypothesis:
     named = f"the torque of joint {joint + 1}"
     return Hypothesis(
         OtherSignal.name,
@@ -76,6 +76,7 @@ def _left_out(setup: Setup, joint: int, says: str) -> Hypothesis:
         setup.with_torque(setup.assignment.torque.scaled(0.0, joint)),
         f"{named} {says}",
         f"map the column that is {named}, or leave it out by a scale of 0",
+        expected=copied,
     )
 
 
@@ -107,14 +108,25 @@ def _centred(series: InstantSeries) -> InstantSeries:
     return np.asarray(series - series.mean(axis=0)) if len(series) else series
 
 
-def _predictable(equations: Equations, joint: int) -> float:
-    """Give the share of a torque's variance that a free fit of its own rows predicts on others, below 1."""
-    fitted, judged = equations.regressor.fitted, equations.regressor.judged
-    columns, torque = fitted.columns[joint], fitted.torque(equations.channels)[joint]
+def _predictable(equations: Equations, joint: int, judged: SampleMask) -> float:
+    """Give the share of a torque's variance that a free fit of its own rows predicts on others, below 1.
+
+    The fit has slow functions of time as well: what warms, drifts or leans on an arm is no other signal.
+    """
+    (columns, torque), (others, measured) = (
+        _own_rows(rows, equations, joint, mask)
+        for rows, mask in ((equations.regressor.fitted, ~judged), (equations.regressor.judged, judged))
+    )
     sizes = np.linalg.norm(columns, axis=1)
     used = sizes > 0.0
     free, *_ = np.linalg.lstsq((columns[used] / sizes[used, None]).T, torque, rcond=OTHER_SIGNAL.rank)
-    measured = judged.torque(equations.channels)[joint]
-    left = measured - (free / sizes[used]) @ judged.columns[joint][used]
+    left = measured - (free / sizes[used]) @ others[used]
     varies = measured - torque.mean()
     return 1.0 - float(left @ left) / max(float(varies @ varies), np.finfo(float).tiny)
+
+
+def _own_rows(rows: Rows, equations: Equations, joint: int, mask: SampleMask) -> tuple[Series, Vector]:
+    """Give the columns of a joint's rows, half cosine waves over all samples among them, and the torque."""
+    share = np.flatnonzero(mask)[rows.samples.usable[:, joint]] / len(mask)
+    waves = np.cos(np.pi * np.outer(np.arange(1, OTHER_SIGNAL.waves + 1), share))
+    return np.vstack([rows.columns[joint], waves]), rows.torque(equations.channels)[joint]

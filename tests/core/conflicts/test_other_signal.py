@@ -11,6 +11,7 @@ from veritorque.core.log.model import JointLog, LogRows, whole_rows
 from veritorque.core.log.reader import log_from_arrays, read_log
 from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.model import RobotModel
+from veritorque.core.setup_check import check_setup
 from veritorque.core.study import IdentifyRequest, identify
 
 PLAIN = {"bootstrap": {"draws": 0}}
@@ -104,3 +105,42 @@ def test_the_correction_leaves_the_torque_out_of_a_file_that_is_read_by_it(arm, 
     assert not again["conflicts"]
     assert again["validation"][JOINT]["samples"] == 0
     assert again["validation"][0]["quality"] == "good"
+
+
+@pytest.mark.parametrize("only", ["drag", "inertia"])
+def test_a_joint_that_has_only_drag_or_inertia_is_no_copy(only):
+    """With a coefficient of one its torque is its velocity or acceleration, and the model says so."""
+    slide = {"type": "prismatic", "d": 0.0, "r": 0.0, "theta_offset": 0.0}
+    rows = [{**slide, "alpha": 0.0}, {**slide, "alpha": np.pi / 2}]
+    robot = robot_from_description({"name": "table", "joints": rows, "gravity": [0.0, 9.81, 0.0]})
+    time, rates = np.arange(0.0, 20.0, 0.004), np.array([1.1, 2.3, 4.1])
+    phase = np.outer(time, rates)[:, :, None] + rates[:, None] * [1.0, 2.0]
+    position, speed = (0.1 / rates[:, None] * np.sin(phase)).sum(axis=1), (0.1 * np.cos(phase)).sum(axis=1)
+    force = speed + 2.0 * np.sign(speed) + 3.0 * np.gradient(speed, time, axis=0)
+    force[:, 0] = speed[:, 0] if only == "drag" else np.gradient(speed[:, 0], time)
+    noise = 0.01 * force.std(axis=0) * np.random.default_rng(2).normal(size=force.shape)
+    log = log_from_arrays("table", time, position, force + noise)
+    assert not check_setup(IdentifyRequest(robot, (log,), PLAIN))["conflicts"]
+
+
+def test_another_conflict_is_as_sure_beside_a_copy_as_alone(arm):
+    robot, log = arm
+    rows = whole_rows(_with_torque(log, COPIES["its velocity"]))
+    torque = rows.torque * [1.0, 1.0, -1.0]
+    spoilt = log_from_arrays(log.name, rows.time, rows.position, torque)
+    found = identify(IdentifyRequest(robot, (spoilt,), PLAIN))["conflicts"]
+    assert [(row["conflict"], row["joints"]) for row in found] == [
+        ("other_signal", [2]),
+        ("torque_sign", [3]),
+    ]
+    assert all(row["confidence"] > 0.9 for row in found)
+
+
+def test_a_push_for_half_a_log_is_no_other_signal(arm):
+    robot, log = arm
+    rows = whole_rows(log)
+    torque = rows.torque.copy()
+    torque[rows.time > 0.5 * rows.time[-1], JOINT] += 20.0 * torque[:, JOINT].std()
+    pushed = log_from_arrays(log.name, rows.time, rows.position, torque)
+    found = identify(IdentifyRequest(robot, (pushed,), PLAIN))["conflicts"]
+    assert "other_signal" not in {row["conflict"] for row in found}
