@@ -1,6 +1,6 @@
 """Check a set-up: whether the stamps agree with the velocities, and which correction a doubtful fit needs."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import takewhile
 
 import numpy as np
@@ -8,7 +8,7 @@ import numpy as np
 from ..estimate.problem import Problem
 from ..log.model import JointLog
 from .kinds.gear_ratio import GearRatio
-from .path import FoundConflict
+from .path import FoundConflict, Path
 from .samples import sampled
 from .search import find_conflicts
 from .setup import Setup
@@ -29,6 +29,8 @@ class Conflicts:
     """Per log, the factor by which its stamps' steps are too long; None where nothing contradicts them."""
     offsets: tuple[TimeOffset | None, ...] = ()
     """Per log, by how much its torques come later than its positions; None where they do not."""
+    of_logs: tuple[Path, ...] = ()
+    """Per log, what is wrong with it alone while another is right; empty where nothing is."""
     applied: bool = False
     """Whether the corrections were applied before anything else was computed."""
     searched: bool = True
@@ -41,7 +43,9 @@ class Conflicts:
     @property
     def is_open(self) -> bool:
         """Tell whether something disagrees that was not corrected."""
-        return (bool(self.found) and not self.applied) or any(self.stamp_factors) or any(self.offsets)
+        return (bool(self.found) and not self.applied) or any(
+            (*self.stamp_factors, *self.offsets, *self.of_logs)
+        )
 
     @property
     def estimates_a_factor(self) -> bool:
@@ -66,23 +70,50 @@ def check(
     factor = next((factor for factor in factors if factor is not None), None)
     if factor is None:
         found = find_conflicts(described, trials)
-        offsets = _offsets(problem, found, described, trials)
-        found = () if any(offsets) else found
-        return Conflicts(found, factors, offsets, promising=_promising(found, described, trials))
+        return _logs_alone(problem, Conflicts(found, factors), described, trials)
     by_velocity = find_conflicts(described.with_clock(1.0 / factor), trials)
     found = _alike(find_conflicts(described, trials), by_velocity) if by_velocity else ()
     return Conflicts(found, factors)
 
 
-def _offsets(
-    problem: Problem, found: tuple[FoundConflict, ...], described: Setup, trials: Trials
-) -> tuple[TimeOffset | None, ...]:
-    """Look for clocks that differ, log by log, where the model fails and no correction surely helps."""
-    sure = any(step.confidence > DECISION.most_where_unsure for step in found)
-    present = None if sure else trials.outcome(trials.equations(described))
-    if present is None or float(np.max(present.errors)) <= DOUBT.unexplained:
+def _logs_alone(problem: Problem, conflicts: Conflicts, described: Setup, trials: Trials) -> Conflicts:
+    """Ask of each log alone what all together do not show: a clock, or a conflict that others have not."""
+    found = conflicts.found
+    copies = tuple(step for step in found if step.hypothesis.is_shown)
+    setup = copies[-1].hypothesis.setup if copies else described
+    if _fails(found[len(copies) :], setup, trials):
+        offsets = tuple(time_offset(motion, setup, trials.terms) for motion in problem.motions)
+        if any(offsets):
+            return replace(conflicts, found=copies, offsets=offsets)
+        of_logs = _of_logs(problem, described, trials.terms)
+        if any(of_logs):
+            return replace(conflicts, found=(), of_logs=of_logs)
+    return replace(conflicts, promising=_promising(found, described, trials))
+
+
+def _fails(found: Path, setup: Setup, trials: Trials) -> bool:
+    """Tell whether the model fails on a joint and no correction surely helps."""
+    if any(step.confidence > DECISION.most_where_unsure for step in found):
+        return False
+    present = trials.outcome(trials.equations(setup))
+    used = np.array(setup.assignment.torque.factor) != 0.0
+    return present is not None and float(np.max(present.errors[used], initial=0.0)) > DOUBT.unexplained
+
+
+def _of_logs(problem: Problem, described: Setup, terms: tuple[str, ...] | None) -> tuple[Path, ...]:
+    """Search each of several logs; nothing where none is right, or what is wrong is the description."""
+    if len(problem.motions) == 1:
         return ()
-    return tuple(time_offset(motion, described, trials.terms) for motion in problem.motions)
+    paths = tuple(_of_log(problem, number, described, terms) for number in range(len(problem.motions)))
+    return () if all(paths) else paths
+
+
+def _of_log(problem: Problem, number: int, described: Setup, terms: tuple[str, ...] | None) -> Path:
+    """Search one log; nothing where a correction is unsure, or is one of the description."""
+    held_out = frozenset((0, block) for log, block in problem.held_out if log == number)
+    found = find_conflicts(described, Trials(sampled((problem.motions[number],), held_out), terms))
+    sure = all(step.confidence > DECISION.most_where_unsure for step in found)
+    return found if sure and all(step.hypothesis.channel for step in found) else ()
 
 
 def _promising(found: tuple[FoundConflict, ...], described: Setup, trials: Trials) -> float:

@@ -29,6 +29,8 @@ class Hypothesis:
     """What to do, in the imperative."""
     expected: bool = False
     """Whether the log's numbers ask for it by their size alone: it has to fit no worse, and costs nothing."""
+    is_shown: bool = False
+    """Whether the log shows it by itself, whatever the model says."""
     corrections: int = 1
     """Sizes that it finds by themselves: each has to gain what a correction has to."""
 

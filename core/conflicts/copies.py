@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from .conflict import Hypothesis
-from .kinds.other_signal import OtherSignal, copied_signals
+from .kinds.other_signal import copied_signals
 from .path import FoundConflict, Margins, Path
 from .refinement import judged_again
 from .setup import Setup
@@ -57,7 +57,7 @@ def only_real_copies(path: Path, trials: Trials) -> Path:
     """Put back the torques that the model predicts, beside the others, where all else is corrected."""
     for step in path:
         own = step.hypothesis
-        if own.conflict == OtherSignal.name and own.expected and _is_torque(own, path[-1], trials):
+        if own.is_shown and _is_torque(own, path[-1], trials):
             others = [(other, _with_torque(other.hypothesis, own)) for other in path if other is not step]
             return only_real_copies(judged_again(others, trials) or (), trials)
     return path

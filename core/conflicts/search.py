@@ -53,7 +53,7 @@ def _as_sure_as_they_fit(path: Path, trials: Trials) -> Path:
 
 def _as_sure_as_absent(step: FoundConflict) -> FoundConflict:
     """Limit the confidence that what is not predicted is no torque: it may be one of an unknown cause."""
-    is_absent = step.hypothesis.conflict == OtherSignal.name and not step.hypothesis.expected
+    is_absent = step.hypothesis.conflict == OtherSignal.name and not step.hypothesis.is_shown
     return unsure((step,))[0] if is_absent else step
 
 

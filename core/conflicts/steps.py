@@ -158,7 +158,7 @@ def _is_guessed(own: Hypothesis, outcome: Outcome) -> bool:
     """Tell whether a factor is put on a torque of which hardly any variation is predicted: any is as good."""
     places = [joint - 1 for joint in own.joints]
     scales = own.channel == "torque" and _subject(own)[0] == "factor"
-    return scales and bool(np.any(outcome.unpredicted[places] > DECISION.failed))
+    return scales and bool(np.any(outcome.unpredicted[places] > DECISION.scaled))
 
 
 def _better(tried: Iterable[_Tried], present: Outcome, needed: float) -> list[_Tried]:

@@ -36,31 +36,28 @@ def time_offset(motion: Motion, setup: Setup, terms: tuple[str, ...] | None) -> 
     if samples is None:
         return None
     trials = Trials(samples, terms)
-    equations = trials.equations(setup)
-    offsets = range(-reach, reach + 1)
-    shifted = [setup.with_torque(_later(setup.assignment.torque, offset + reach)) for offset in offsets]
-    bounds = np.array([equations.regressor.products.read(own.assignment.torque).bound for own in shifted])
+    torque, count = setup.assignment.torque, 2 * reach + 1
+    shifted = [setup.with_torque(_later(torque, place)) for place in range(count)]
+    products = trials.equations(setup).regressor.products
+    bounds = np.array([products.read(own.assignment.torque).bound for own in shifted])
     best = int(np.argmin(bounds))
-    seconds = step * (offsets[best] + _vertex(bounds[max(best - 1, 0) : best + 2]))
-    if abs(seconds) < TIME_OFFSET.least:
-        return None
+    seconds = step * (best - reach + _vertex(bounds, best))
     before, after = (trials.outcome(trials.equations(own)) for own in (shifted[reach], shifted[best]))
-    if before is None or after is None:
+    if abs(seconds) < TIME_OFFSET.least or before is None or after is None:
         return None
-    needed = max(Margins.of(before, trials).needed(len(shifted)), -np.log(DECISION.least_share))
-    return TimeOffset(seconds, before, after) if before.score - after.score > needed else None
+    return TimeOffset(seconds, before, after) if _is_clear(before, after, trials, count) else None
+
+
+def _is_clear(before: Outcome, after: Outcome, trials: Trials, tried: int) -> bool:
+    """Tell whether the error falls to half at least, and by more than chance and the number of offsets."""
+    needed = max(Margins.of(before, trials).needed(tried), -np.log(DECISION.least_share))
+    return bool(before.score - after.score > needed)
 
 
 def _samples(motion: Motion, reach: int) -> Samples | None:
     """Take instants with the torques of all joints at every offset, one after the other."""
     stride = max(1, -(-motion.kept // TRIAL.rows))
-    parts = []
-    for run in _runs(motion):
-        rows = np.arange(reach, len(run["torque"]) - reach, stride)
-        offsets = range(-reach, reach + 1)
-        torque = np.hstack([run["torque"][rows + offset] for offset in offsets]) if len(rows) else None
-        if torque is not None:
-            parts.append({name: values[rows] for name, values in run.items()} | {"torque": torque})
+    parts = [_with_offsets(run, reach, stride) for run in _runs(motion) if len(run["torque"]) > 2 * reach]
     if not parts:
         return None
     series = {name: np.concatenate([part[name] for part in parts]) for name in SERIES}
@@ -68,6 +65,13 @@ def _samples(motion: Motion, reach: int) -> Samples | None:
     independent = max(1.0, float(series["judged"].mean() * 2.0 * cycles))
     measured = ~motion.segments[0].unmeasured
     return Samples(**series, measured=measured, independent=independent)
+
+
+def _with_offsets(run: dict[str, np.ndarray], reach: int, stride: int) -> dict[str, np.ndarray]:
+    """Take instants of a stretch at which all offsets are within it."""
+    rows = np.arange(reach, len(run["torque"]) - reach, stride)
+    torque = np.hstack([run["torque"][rows + offset] for offset in range(-reach, reach + 1)])
+    return {name: values[rows] for name, values in run.items()} | {"torque": torque}
 
 
 def _runs(motion: Motion) -> Iterator[dict[str, np.ndarray]]:
@@ -94,9 +98,9 @@ def _later(channels: Channels, place: int) -> Channels:
     return Channels(source, channels.factor, channels.offset)
 
 
-def _vertex(bounds: np.ndarray) -> float:
-    """Give where the parabola through the least bound and its neighbours is least, in steps."""
-    if len(bounds) < 3:
+def _vertex(bounds: np.ndarray, best: int) -> float:
+    """Give where the parabola through the least bound and its neighbours is least, in steps from it."""
+    if not 0 < best < len(bounds) - 1:
         return 0.0
-    left, middle, right = bounds
-    return float(0.5 * (left - right) / max(left - 2.0 * middle + right, np.finfo(float).tiny))
+    before, after = (bounds[best + way] - bounds[best] for way in (-1, 1))
+    return float(0.5 * (before - after) / max(before + after, np.finfo(float).tiny))

@@ -1,5 +1,6 @@
 """Write the conflicts of robot and logs, each with the correction to paste."""
 
+from collections.abc import Iterator
 from functools import partial
 from typing import cast
 
@@ -32,17 +33,22 @@ def conflict_rows(
     """
     correction = _correction(conflicts, robot, logs)
     fitted = [_row(found, correction, applied=conflicts.applied) for found in conflicts.found]
-    stamps = [
-        _stamps_row(factor, log, correction)
-        for factor, log in zip(conflicts.stamp_factors, logs, strict=True)
-        if factor is not None
-    ]
-    offsets = [
-        _offset_row(offset, log, correction)
-        for offset, log in zip(conflicts.offsets, logs, strict=False)
-        if offset is not None
-    ]
-    return [{key: plain(value) for key, value in row.items()} for row in [*fitted, *stamps, *offsets]]
+    alone = [row for place, log in enumerate(logs) for row in _rows_of_log(conflicts, place, log, correction)]
+    return [{key: plain(value) for key, value in row.items()} for row in [*fitted, *alone]]
+
+
+def _rows_of_log(
+    conflicts: Conflicts, place: int, log: JointLog, correction: dict[str, object]
+) -> Iterator[dict[str, object]]:
+    """Tabulate what is wrong with one log, from 0: its stamps, its clock, its channels."""
+    factor = conflicts.stamp_factors[place]
+    if factor is not None:
+        yield _stamps_row(factor, log, correction)
+    offset = conflicts.offsets[place] if conflicts.offsets else None
+    if offset is not None:
+        yield _offset_row(offset, log, correction)
+    for found in conflicts.of_logs[place] if conflicts.of_logs else ():
+        yield _row_of_log(found, correction, log)
 
 
 def conflict_sentence(row: dict[str, object]) -> str:
@@ -100,6 +106,15 @@ def _row(found: FoundConflict, correction: dict[str, object], *, applied: bool) 
     }
 
 
+def _row_of_log(found: FoundConflict, correction: dict[str, object], log: JointLog) -> dict[str, object]:
+    """Tabulate a conflict of one log among several."""
+    row = _row(found, correction, applied=False)
+    return row | {
+        "statement": f"in {log.name} alone, {row['statement']}",
+        "remedy": f"in {log.name}, {row['remedy']}",
+    }
+
+
 def _alternative(hypothesis: Hypothesis) -> dict[str, object]:
     return {
         "conflict": hypothesis.conflict,
@@ -112,7 +127,7 @@ def _alternative(hypothesis: Hypothesis) -> dict[str, object]:
 def _correction(conflicts: Conflicts, robot: RobotModel, logs: tuple[JointLog, ...]) -> dict[str, object]:
     """Give the mapping with which the logs are to be read, and the fields of the description to replace."""
     setup = conflicts.setup
-    read = logs if setup is None else tuple(assigned(log, setup.assignment) for log in logs)
+    read = tuple(_read(log, place, conflicts) for place, log in enumerate(logs))
     written = partial(mapping_of, prismatic=prismatic_numbers(robot))
     mappings = [
         written(log) | _clock(factor, log) for log, factor in zip(read, conflicts.stamp_factors, strict=True)
@@ -122,6 +137,13 @@ def _correction(conflicts: Conflicts, robot: RobotModel, logs: tuple[JointLog, .
     return {"mapping": mappings[0] if mappings != before else {}, "robot": described} | (
         {"mappings": mappings} if len(logs) > 1 and mappings != before else {}
     )
+
+
+def _read(log: JointLog, place: int, conflicts: Conflicts) -> JointLog:
+    """Read a log as it is corrected, with all others or alone."""
+    alone = conflicts.of_logs[place] if conflicts.of_logs else ()
+    setup = alone[-1].hypothesis.setup if alone else conflicts.setup
+    return log if setup is None else assigned(log, setup.assignment)
 
 
 def _described(setup: Setup, robot: RobotModel) -> dict[str, object]:

@@ -60,9 +60,8 @@ def _agreement(found: Identification, conflicts: Conflicts) -> Agreement:
 
     It is doubtful where a conflict is not corrected, or the model fails to predict a joint.
     """
-    left_open = bool(conflicts.found) and not conflicts.applied
     failed = any(quality(score.nrmse_of_rms_percent) == "failed" for score in found.validation or found.fit)
-    if left_open or failed or any(conflicts.stamp_factors) or any(conflicts.offsets):
+    if conflicts.is_open or failed:
         return "doubtful"
     return "after_correction" if conflicts.found else "yes"
 

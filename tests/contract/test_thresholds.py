@@ -16,6 +16,7 @@ MODULES = sorted(path for room in ROOMS for path in (ROOT / room).rglob("*.py") 
 NAMED = {
     "grid": {
         "conflicts/kinds/mounting": "_COARSE _USUAL _REFINEMENT",
+        "conflicts/kinds/zero_offset": "_QUARTER",
         "conflicts/kinds/zero_quarter_turn": "_DEGREES",
         "diagnosis/causes/backlash": "NARROWEST WIDEST STEPS",
         "diagnosis/causes/cable_force": "SHARES",
@@ -44,6 +45,7 @@ NAMED = {
         "audit/contradictions": "ROUNDS IMPOSSIBLE",
         "audit/description": "ROUNDING",
         "audit/entries": "SIZES _AT _PAIRS",
+        "conflicts/kinds/channels_swapped": "_PAIR",
         "conflicts/kinds/link_length": "_GENERAL",
         "conflicts/reduced": "RIDGE _REWEIGHTINGS",
         "conflicts/trial": "_GENERAL _STEP",

@@ -29,23 +29,28 @@ class ChannelsSwapped(Conflict):
         another, and which of the two is easier to predict says nothing. So such a pair is exchanged only
         where the joint that moves is in doubt.
         """
-        pairs = sorted(combinations(range(setup.joints), 2), key=lambda pair: (pair[1] - pair[0], pair[0]))
         sound, stands = _sound(setup, trials), ~trials.moves(setup)
-        for first, second in pairs:
+        for first, second in _pairs(setup.joints):
             apart = bool((stands[first] and sound[second]) or (stands[second] and sound[first]))
-            for channel, words in _WORDS.items():
-                if apart and channel != "both":
-                    continue
-                named = f"{words} of joints {first + 1} and {second + 1}"
-                yield Hypothesis(
-                    self.name,
-                    (first + 1, second + 1),
-                    channel,
-                    _exchanged(setup, channel, first, second),
-                    f"the {named} are exchanged",
-                    f"exchange the {named}",
-                )
-        for order in _orders(setup.joints) if setup.assignment == trials.samples.as_measured else ():
+            yield from (self._pair(setup, channel, first, second) for channel in _channels(apart=apart))
+        if setup.assignment == trials.samples.as_measured:
+            yield from self._orders(setup)
+
+    def _pair(self, setup: Setup, channel: Channel, first: int, second: int) -> Hypothesis:
+        """Exchange a pair, from 0."""
+        named = f"{_WORDS[channel]} of joints {first + 1} and {second + 1}"
+        return Hypothesis(
+            self.name,
+            (first + 1, second + 1),
+            channel,
+            _exchanged(setup, channel, first, second),
+            f"the {named} are exchanged",
+            f"exchange the {named}",
+        )
+
+    def _orders(self, setup: Setup) -> Iterator[Hypothesis]:
+        """Take other orders of all channels."""
+        for order in _orders(setup.joints):
             columns = ", ".join(str(order.index(column) + 1) for column in range(setup.joints))
             yield Hypothesis(
                 self.name,
@@ -55,6 +60,15 @@ class ChannelsSwapped(Conflict):
                 f"the channels come in another order: they are those of joints {columns}",
                 f"map the columns {', '.join(str(column + 1) for column in order)} in this order",
             )
+
+
+def _pairs(joints: int) -> list[tuple[int, int]]:
+    """List pairs, from 0, neighbours first."""
+    return sorted(combinations(range(joints), 2), key=lambda pair: (pair[1] - pair[0], pair[0]))
+
+
+def _channels(*, apart: bool) -> tuple[Channel, ...]:
+    return ("both",) if apart else tuple(_WORDS)
 
 
 def _orders(joints: int) -> list[tuple[int, ...]]:

@@ -18,9 +18,6 @@ from ..setup import Setup
 from ..thresholds import DECISION, OTHER_SIGNAL
 from ..trial import Trials
 
-_UNITS = (1.0, np.pi / 180.0, 180.0 / np.pi)
-"""Factors that a motion may have in the place of a torque: as declared, or in another unit of angles."""
-
 
 class OtherSignal(Conflict):
     """Leave out the torque of a joint."""
@@ -53,7 +50,7 @@ def copied_signals(setup: Setup, trials: Trials) -> Iterator[tuple[Hypothesis, .
             continue
         for other in measured:
             rows = samples.usable[:, joint] & samples.usable[:, other]
-            if other > joint and _is_copy(torque[:, [other]], torque[:, joint], rows, (1.0,)).any():
+            if other > joint and _is_same(torque[:, other], torque[:, joint], rows):
                 both = f"is that of joint {{}} as well: torques of joints {joint + 1} and {other + 1} are one"
                 yield (
                     _left_out(setup, joint, both.format(other + 1), copied=True),
@@ -77,6 +74,7 @@ def _left_out(setup: Setup, joint: int, says: str, *, copied: bool = False) -> H
         f"{named} {says}",
         f"map the column that is {named}, or leave it out by a scale of 0",
         expected=copied,
+        is_shown=copied,
     )
 
 
@@ -87,21 +85,23 @@ def _repeated(torque: Vector, samples: Samples, rows: SampleMask) -> str:
         ("velocity", samples.velocity),
         ("acceleration", samples.acceleration),
     ):
-        copies = np.flatnonzero(_is_copy(series, torque, rows, _UNITS))
+        copies = np.flatnonzero(_follows(series, torque, rows))
         if len(copies):
             return f"the {name} of joint {copies[0] + 1}"
     return ""
 
 
-def _is_copy(series: JointSeries, torque: Vector, rows: SampleMask, factors: tuple[float, ...]) -> np.ndarray:
-    """Mark the series that a torque is, but for an offset and one of some factors."""
+def _follows(series: JointSeries, torque: Vector, rows: SampleMask) -> np.ndarray:
+    """Mark the series that a torque is, but for an offset and a factor."""
     own, others = (_centred(each[rows]) for each in (torque[:, None], series))
     size, product = np.einsum("ij,ij->j", others, others), others.T @ own[:, 0]
-    slope = product / np.where(size > 0.0, size, np.inf)
-    left = float(own[:, 0] @ own[:, 0]) - slope * product
-    alike = left < OTHER_SIGNAL.copy**2 * float(own[:, 0] @ own[:, 0])
-    known = np.abs(np.abs(slope)[:, None] / np.array(factors) - 1.0) < OTHER_SIGNAL.copy
-    return np.asarray(alike & known.any(axis=1))
+    whole = float(own[:, 0] @ own[:, 0])
+    return np.asarray(whole - product**2 / np.where(size > 0.0, size, np.inf) < OTHER_SIGNAL.copy**2 * whole)
+
+
+def _is_same(first: Vector, second: Vector, rows: SampleMask) -> bool:
+    own, other = (_centred(each[rows]) for each in (first, second))
+    return bool((own - other) @ (own - other) < OTHER_SIGNAL.copy**2 * (own @ own))
 
 
 def _centred(series: InstantSeries) -> InstantSeries:

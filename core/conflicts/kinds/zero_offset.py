@@ -10,6 +10,9 @@ from ..setup import Setup
 from ..thresholds import ZERO
 from ..trial import Trials
 
+_QUARTER = np.pi / 2.0
+"""A quarter turn, rad."""
+
 
 class ZeroOffset(Conflict):
     """Move the zero of one revolute joint by any angle but quarter turns."""
@@ -22,9 +25,9 @@ class ZeroOffset(Conflict):
         moves = trials.moves(setup)
         for joint in setup.revolute():
             angle = _likeliest(setup, trials, joint) if moves[joint] else 0.0
-            degrees = float(np.degrees(angle))
-            if abs(degrees - 90.0 * round(degrees / 90.0)) < np.degrees(ZERO.least):
+            if abs(angle - _QUARTER * round(angle / _QUARTER)) < ZERO.least:
                 continue
+            degrees = float(np.degrees(angle))
             yield Hypothesis(
                 self.name,
                 (joint + 1,),

@@ -61,15 +61,18 @@ def beside_dead_zones(findings: Sequence[Finding]) -> list[Finding]:
     zones = {one.joints[0]: one.explained_fraction for one in findings if one.cause == TorqueDeadZone.id}
 
     def limited(finding: Finding) -> Finding:
-        member = finding.member
-        if member is None:
-            return finding
-        reach = range(1, max(finding.joints) + 1) if member.cause.traits.transient else finding.joints
-        reach = zones if finding.cause == TorqueGain.id else reach
+        reach = zones if finding.cause == TorqueGain.id else _reach(finding)
         spoilt = max((zones.get(joint, 0.0) for joint in reach), default=0.0)
         return as_doubtful(finding) if spoilt > finding.explained_fraction else finding
 
     return [limited(finding) for finding in findings]
+
+
+def _reach(finding: Finding) -> Sequence[int]:
+    """List the joints, from 1, whose torques bear on a finding; none on one that the search did not make."""
+    if finding.member is None:
+        return ()
+    return range(1, max(finding.joints) + 1) if finding.member.cause.traits.transient else finding.joints
 
 
 def beside_another_setup(findings: Sequence[Finding], promising: float) -> tuple[Finding, ...]:
