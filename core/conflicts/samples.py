@@ -78,10 +78,20 @@ def sampled(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Sampl
     # No row of an unmeasured torque is usable; were it another joint's, rows would be usable as others are.
     usable = series["usable"]
     usable[:, ~measured] = usable.any(axis=1, keepdims=True)
-    cycles = sum(motion.log.duration * motion.recipe.motion_band_hz for motion in motions)
-    return Samples(
-        **series, measured=measured, independent=max(1.0, float(series["judged"].mean() * 2.0 * cycles))
-    )
+    seen = sum(motion.log.duration * motion.recipe.motion_band_hz for motion in motions)
+    return Samples(**series, measured=measured, independent=independent_values(series, seen))
+
+
+def independent_values(series: dict[str, np.ndarray], cycles: float) -> float:
+    """Count the independent values of a joint that judge: no more than there are rows of it.
+
+    Parameters
+    ----------
+    cycles
+        The motion's band times its duration.
+    """
+    rows = np.count_nonzero(series["usable"] & series["judged"][:, None], axis=0)
+    return max(1.0, min(float(series["judged"].mean()) * 2.0 * cycles, float(rows.mean())))
 
 
 def _taken(

@@ -204,8 +204,8 @@ class OtherSignal:
     """Share of the variance of a torque that can be predicted, below which it is none of this joint."""
     waves: int = 8
     """Half cosine waves of time over all samples, by which slow changes are predicted."""
-    rank: float = 1e-6
-    """Relative singular value below which columns are dependent."""
+    ridge: float = 0.01
+    """Added to the products of columns of unit size: what a free fit hardly shows, it hardly predicts."""
 
 
 DOUBT, TRIAL, DECISION, MOUNTING = Doubt(), Trial(), Decision(), Mounting()

@@ -12,7 +12,7 @@ import numpy as np
 from ..log.columns.assignment import Channels
 from ..signals.condition import Motion
 from .path import Margins
-from .samples import SERIES, Samples, filtered_series
+from .samples import SERIES, Samples, filtered_series, independent_values
 from .setup import Setup
 from .thresholds import DECISION, TIME_OFFSET, TRIAL
 from .trial import Outcome, Trials
@@ -62,9 +62,8 @@ def _samples(motion: Motion, reach: int) -> Samples | None:
         return None
     series = {name: np.concatenate([part[name] for part in parts]) for name in SERIES}
     cycles = motion.log.duration * motion.recipe.motion_band_hz
-    independent = max(1.0, float(series["judged"].mean() * 2.0 * cycles))
     measured = ~motion.segments[0].unmeasured
-    return Samples(**series, measured=measured, independent=independent)
+    return Samples(**series, measured=measured, independent=independent_values(series, cycles))
 
 
 def _with_offsets(run: dict[str, np.ndarray], reach: int, stride: int) -> dict[str, np.ndarray]:

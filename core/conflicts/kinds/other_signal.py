@@ -119,7 +119,9 @@ def _predictable(equations: Equations, joint: int, judged: SampleMask) -> float:
     )
     sizes = np.linalg.norm(columns, axis=1)
     used = sizes > 0.0
-    free, *_ = np.linalg.lstsq((columns[used] / sizes[used, None]).T, torque, rcond=OTHER_SIGNAL.rank)
+    scaled = columns[used] / sizes[used, None]
+    products = scaled @ scaled.T + OTHER_SIGNAL.ridge * np.eye(len(scaled))
+    free = np.linalg.solve(products, scaled @ torque)
     left = measured - (free / sizes[used]) @ others[used]
     varies = measured - torque.mean()
     return 1.0 - float(left @ left) / max(float(varies @ varies), np.finfo(float).tiny)
