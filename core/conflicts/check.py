@@ -109,9 +109,15 @@ def _of_logs(problem: Problem, described: Setup, terms: tuple[str, ...] | None) 
 
 
 def _of_log(problem: Problem, number: int, described: Setup, terms: tuple[str, ...] | None) -> Path:
-    """Search one log; nothing where a correction is unsure, or is one of the description."""
+    """Search one log; nothing where a correction is unsure, or is one of the description.
+
+    A log that is held out as a whole is not searched: nothing of it may decide.
+    """
+    motion = problem.motions[number]
     held_out = frozenset((0, block) for log, block in problem.held_out if log == number)
-    found = find_conflicts(described, Trials(sampled((problem.motions[number],), held_out), terms))
+    if len(held_out) == motion.blocks:
+        return ()
+    found = find_conflicts(described, Trials(sampled((motion,), held_out), terms))
     sure = all(step.confidence > DECISION.most_where_unsure for step in found)
     return found if sure and all(step.hypothesis.channel for step in found) else ()
 

@@ -81,3 +81,9 @@ def test_it_is_said_of_the_log_that_is_spoilt(arm, conflict):
 
 def test_nothing_is_said_of_sound_logs(arm):
     assert not identify(IdentifyRequest(arm, (_log(arm, 5), _log(arm, 6)), PLAIN))["conflicts"]
+
+
+def test_a_log_that_is_held_out_as_a_whole_decides_nothing(arm):
+    logs = (_log(arm, 5), _changed(_log(arm, 6), _reverse), _log(arm, 7))
+    document = identify(IdentifyRequest(arm, logs, PLAIN | {"validation": {"logs": [2]}}))
+    assert not document["conflicts"]
