@@ -12,6 +12,7 @@ import numpy as np
 from .conflict import Hypothesis
 from .kinds.other_signal import copied_signals
 from .path import FoundConflict, Margins, Path
+from .reduced import mean_log
 from .refinement import judged_again
 from .setup import Setup
 from .thresholds import DOUBT
@@ -71,7 +72,8 @@ def _is_torque(own: Hypothesis, last: FoundConflict, trials: Trials) -> bool:
     place = last.hypothesis.setup.assignment.torque.source.index(own.joints[0] - 1)
     needed = Margins.of(back, trials).needed(1)
     others = np.arange(len(back.errors)) != place
-    gained = np.log(back.errors[others] / last.after.errors[others]).sum() / len(back.errors)
+    worse = float(mean_log(back.errors[others]) - mean_log(last.after.errors[others]))
+    gained = worse * float(np.mean(others))
     return bool(back.errors[place] <= DOUBT.unexplained and gained <= needed)
 
 

@@ -76,11 +76,10 @@ def family(
     for joint, (rows, columns, measured) in enumerate(zip(whole, columns_of, torque, strict=True)):
         mine = own[columns]
         part, row = np.nonzero(rows[:, ~mine].any(axis=2))
-        at, used = part * size + place[columns[~mine][row]], len(part)
-        left, torques[joint] = _without_own(rows[0, mine], rows[:, ~mine][part, row], measured)
-        products[joint][np.ix_(at, at)] = left[:used, :used]
-        moments[joint, at] = left[:used, used:]
-        squares[joint] = np.diag(left)[used:]
+        at = part * size + place[columns[~mine][row]]
+        left = _without_own(rows[0, mine], rows[:, ~mine][part, row], measured)
+        products[joint][np.ix_(at, at)], moments[joint, at], squares[joint] = left
+        torques[joint] = np.einsum("ij,ij->i", measured, measured)
     count = np.array([float(max(measured.shape[1], 1)) for measured in torque])
     shape = joints, len(parts), size
     return RegressorFamily(
@@ -108,16 +107,20 @@ def _own_columns(whole: Sequence[np.ndarray], columns_of: Sequence[Indices]) -> 
     return np.asarray(users == 1.0)
 
 
-def _without_own(own: Series, shared: Series, torque: Series) -> tuple[Matrix, Vector]:
-    """Give the products of shared columns and torques without own ones, and the squares of whole torques."""
-    stacked = np.concatenate([own, shared, torque])
-    products = stacked @ stacked.T
-    squares, count = np.diag(products), len(own)
-    norms = np.sqrt(np.where(squares[:count] > 0.0, squares[:count], 1.0))
-    alone = products[:count, :count] / np.outer(norms, norms) + RIDGE * np.eye(count)
-    beside = products[:count, count:] / norms[:, None]
-    left = products[count:, count:] - beside.T @ np.linalg.solve(alone, beside)
-    # Nothing is left of a row that is but for rounding in the span of the own ones.
-    spanned = np.diag(left) <= RIDGE * squares[count:]
-    left[spanned], left[:, spanned] = 0.0, 0.0
-    return left, squares[-len(torque) :]
+def _without_own(own: Series, shared: Series, torque: Series) -> tuple[Matrix, Matrix, Vector]:
+    """Give the products of shared columns with each other and with torques, and the torques' squares.
+
+    Own columns are projected out of all of them. The torques may be many: they have no products.
+    """
+    norms = np.linalg.norm(own, axis=1)
+    scaled = own / np.where(norms > 0.0, norms, 1.0)[:, None]
+    alone = scaled @ scaled.T + RIDGE * np.eye(len(own))
+    beside, along = scaled @ shared.T, scaled @ torque.T
+    across, taken = np.linalg.solve(alone, beside), np.linalg.solve(alone, along)
+    products, moments = shared @ shared.T - beside.T @ across, shared @ torque.T - beside.T @ taken
+    whole = np.einsum("ij,ij->i", torque, torque)
+    squares = np.maximum(whole - np.einsum("ij,ij->j", along, taken), 0.0)
+    # Nothing is left of a column that is but for rounding in the span of the own ones.
+    spanned = np.diag(products) <= RIDGE * np.einsum("ij,ij->i", shared, shared)
+    products[spanned], products[:, spanned], moments[spanned] = 0.0, 0.0, 0.0
+    return products, moments, squares

@@ -98,6 +98,8 @@ class TimeOffset:
 
     furthest: float = 2.0
     """Seconds either way."""
+    steps: int = 50
+    """Offsets either way that are tried, 40 ms apart: eight to a period of 3 Hz."""
     least: float = 0.06
     """Seconds below which it is a delay, a cause with a size of up to 50 ms, which is found to some 10 ms."""
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import Indices
 from ..log.columns.assignment import Channels
 from ..signals.condition import Motion
 from .path import Margins
@@ -31,8 +32,9 @@ class TimeOffset:
 def time_offset(motion: Motion, setup: Setup, terms: tuple[str, ...] | None) -> TimeOffset | None:
     """Give the offset at which the model predicts a log's torques; None where none does so much better."""
     step = motion.recipe.decimation / motion.log.rate_hz
-    reach = int(TIME_OFFSET.furthest / step)
-    samples = _samples(motion, reach)
+    every = max(1, round(TIME_OFFSET.furthest / (TIME_OFFSET.steps * step)))
+    reach = int(TIME_OFFSET.furthest / (every * step))
+    samples = _samples(motion, every * np.arange(-reach, reach + 1))
     if samples is None:
         return None
     trials = Trials(samples, terms)
@@ -41,7 +43,7 @@ def time_offset(motion: Motion, setup: Setup, terms: tuple[str, ...] | None) -> 
     products = trials.equations(setup).regressor.products
     bounds = np.array([products.read(own.assignment.torque).bound for own in shifted])
     best = int(np.argmin(bounds))
-    seconds = step * (best - reach + _vertex(bounds, best))
+    seconds = every * step * (best - reach + _vertex(bounds, best))
     before, after = (trials.outcome(trials.equations(own)) for own in (shifted[reach], shifted[best]))
     if abs(seconds) < TIME_OFFSET.least or before is None or after is None:
         return None
@@ -54,10 +56,11 @@ def _is_clear(before: Outcome, after: Outcome, trials: Trials, tried: int) -> bo
     return bool(before.score - after.score > needed)
 
 
-def _samples(motion: Motion, reach: int) -> Samples | None:
+def _samples(motion: Motion, offsets: Indices) -> Samples | None:
     """Take instants with the torques of all joints at every offset, one after the other."""
     stride = max(1, -(-motion.kept // TRIAL.rows))
-    parts = [_with_offsets(run, reach, stride) for run in _runs(motion) if len(run["torque"]) > 2 * reach]
+    long = (run for run in _runs(motion) if len(run["torque"]) > 2 * offsets[-1])
+    parts = [_with_offsets(run, offsets, stride) for run in long]
     if not parts:
         return None
     series = {name: np.concatenate([part[name] for part in parts]) for name in SERIES}
@@ -66,10 +69,10 @@ def _samples(motion: Motion, reach: int) -> Samples | None:
     return Samples(**series, measured=measured, independent=independent_values(series, cycles))
 
 
-def _with_offsets(run: dict[str, np.ndarray], reach: int, stride: int) -> dict[str, np.ndarray]:
+def _with_offsets(run: dict[str, np.ndarray], offsets: Indices, stride: int) -> dict[str, np.ndarray]:
     """Take instants of a stretch at which all offsets are within it."""
-    rows = np.arange(reach, len(run["torque"]) - reach, stride)
-    torque = np.hstack([run["torque"][rows + offset] for offset in range(-reach, reach + 1)])
+    rows = np.arange(offsets[-1], len(run["torque"]) + offsets[0], stride)
+    torque = np.hstack([run["torque"][rows + offset] for offset in offsets])
     return {name: values[rows] for name, values in run.items()} | {"torque": torque}
 
 

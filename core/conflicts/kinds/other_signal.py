@@ -29,7 +29,8 @@ class OtherSignal(Conflict):
         """Leave out each torque that follows neither the model's columns nor the positions."""
         present = trials.outcome(trials.equations(setup))
         failed = [] if present is None else np.flatnonzero(present.errors > DECISION.failed).tolist()
-        asked = [joint for joint in _measured(setup, trials) if joint in failed]
+        fitted = trials.samples.moved(setup.assignment).usable[~trials.samples.judged].any(axis=0)
+        asked = [joint for joint in _measured(setup, trials) if joint in failed and fitted[joint]]
         if not asked:
             return
         free = beside_forces(trials, setup).equations(setup)
@@ -44,7 +45,7 @@ def copied_signals(setup: Setup, trials: Trials) -> Iterator[tuple[Hypothesis, .
     torque = setup.assignment.torque.of(samples.torque)
     measured = _measured(setup, trials)
     for joint in measured:
-        signal = _repeated(torque[:, joint], samples, samples.usable[:, joint])
+        signal = _repeated(joint, torque[:, joint], samples)
         if signal:
             yield (_left_out(setup, joint, f"is {signal}", copied=True),)
             continue
@@ -78,16 +79,17 @@ def _left_out(setup: Setup, joint: int, says: str, *, copied: bool = False) -> H
     )
 
 
-def _repeated(torque: Vector, samples: Samples, rows: SampleMask) -> str:
-    """Name the motion that a torque repeats; nothing where it repeats none."""
+def _repeated(joint: int, torque: Vector, samples: Samples) -> str:
+    """Name the motion that a joint's torque repeats, its own first; nothing where it repeats none."""
+    rows = samples.usable[:, joint]
     for name, series in (
         ("position", samples.position),
         ("velocity", samples.velocity),
         ("acceleration", samples.acceleration),
     ):
-        copies = np.flatnonzero(_follows(series, torque, rows))
-        if len(copies):
-            return f"the {name} of joint {copies[0] + 1}"
+        follows = _follows(series, torque, rows)
+        if follows.any():
+            return f"the {name} of joint {(joint if follows[joint] else int(np.argmax(follows))) + 1}"
     return ""
 
 
