@@ -75,9 +75,11 @@ def sampled(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Sampl
     ]
     series = {name: np.concatenate([part[name] for part in parts]) for name in SERIES}
     measured = ~np.all([motion.segments[0].unmeasured for motion in motions], axis=0)
-    # No row of an unmeasured torque is usable; were it another joint's, rows would be usable as others are.
-    usable = series["usable"]
-    usable[:, ~measured] = usable.any(axis=1, keepdims=True)
+    # No row of an unmeasured torque is usable; were it another joint's, those in which the joint moves would be.
+    usable, silent = series["usable"], ~measured
+    still = np.max([motion.recipe.still_speed for motion in motions], axis=0)
+    moving = np.abs(series["velocity"][:, silent]) > still[silent]
+    usable[:, silent] = usable.any(axis=1, keepdims=True) & moving
     seen = sum(motion.log.duration * motion.recipe.motion_band_hz for motion in motions)
     return Samples(**series, measured=measured, independent=independent_values(series, seen))
 
