@@ -75,7 +75,7 @@ def sampled(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Sampl
     ]
     series = {name: np.concatenate([part[name] for part in parts]) for name in SERIES}
     measured = ~np.all([motion.segments[0].unmeasured for motion in motions], axis=0)
-    # No row of an unmeasured torque is usable; were it another joint's, those in which the joint moves would be.
+    # No row of an unmeasured torque is usable. Were it another's, those would be in which the joint moves.
     usable, silent = series["usable"], ~measured
     still = np.max([motion.recipe.still_speed for motion in motions], axis=0)
     moving = np.abs(series["velocity"][:, silent]) > still[silent]
