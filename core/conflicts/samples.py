@@ -27,7 +27,7 @@ class Samples:
     direction: JointSeries
     """Sign of the velocity, filtered: the sign of a filtered velocity is another thing."""
     usable: JointMask
-    """Whether a joint moves there, for one."""
+    """Whether a row of a joint may be used: the joint moves there."""
     measured: JointMarks
     """Whether a joint's torque was measured at all."""
     judged: SampleMask

@@ -6,15 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tests.core.estimate.worlds import swing, true_parameters
-from veritorque.core.dynamics.model import standard_model
+from tests.core.conflicts.skew_arm import PLAIN, skew_arm, sound_log
 from veritorque.core.log.model import JointLog, LogRows, whole_rows
 from veritorque.core.log.reader import log_from_arrays
-from veritorque.core.robot.description import robot_from_description
-from veritorque.core.robot.model import RobotModel
 from veritorque.core.study import IdentifyRequest, identify
 
-PLAIN = {"bootstrap": {"draws": 0}}
+ARM = skew_arm()
 
 
 def _changed(log: JointLog, change: Callable[[LogRows], None]) -> JointLog:
@@ -44,32 +41,11 @@ def _replace(rows: LogRows) -> None:
 SPOILT = {"torque_sign": _reverse, "unit": _enlarge, "zero_offset": _turn, "other_signal": _replace}
 
 
-@pytest.fixture(scope="module")
-def arm() -> RobotModel:
-    """Give three skew joints."""
-    row = {"type": "revolute", "theta_offset": 0.0}
-    rows = [
-        {**row, "alpha": 0.0, "d": 0.0, "r": 0.3},
-        {**row, "alpha": -np.pi / 2, "d": 0.1, "r": 0.0},
-        {**row, "alpha": 0.0, "d": 0.4, "r": 0.1},
-    ]
-    return robot_from_description({"name": "arm", "joints": rows})
-
-
-def _log(arm: RobotModel, seed: int) -> JointLog:
-    """Log another motion of the same arm, with 1 % of noise."""
-    model = standard_model(arm)
-    state = swing(3, seed=seed)
-    torque = model.torque(true_parameters(model, seed=3), state)
-    torque += 0.01 * torque.std(axis=0) * np.random.default_rng(seed).normal(size=torque.shape)
-    return log_from_arrays(f"log {seed}", np.arange(len(torque)) / 100.0, state.position, torque)
-
-
 @pytest.mark.parametrize("conflict", sorted(SPOILT))
-def test_it_is_said_of_the_log_that_is_spoilt(arm, conflict):
+def test_it_is_said_of_the_log_that_is_spoilt(conflict):
     """Reversed in all logs, the torque of a joint fitted one log and failed on the sound ones."""
-    logs = (_log(arm, 5), _changed(_log(arm, 6), SPOILT[conflict]))
-    document = identify(IdentifyRequest(arm, logs, PLAIN))
+    logs = (sound_log(ARM, 5), _changed(sound_log(ARM, 6), SPOILT[conflict]))
+    document = identify(IdentifyRequest(ARM, logs, PLAIN))
     [row] = document["conflicts"]
     assert (row["conflict"], row["joints"], row["applied"]) == (conflict, [2], False)
     assert "in log 6 alone" in row["statement"]
@@ -79,11 +55,11 @@ def test_it_is_said_of_the_log_that_is_spoilt(arm, conflict):
     assert corrected != sound
 
 
-def test_nothing_is_said_of_sound_logs(arm):
-    assert not identify(IdentifyRequest(arm, (_log(arm, 5), _log(arm, 6)), PLAIN))["conflicts"]
+def test_nothing_is_said_of_sound_logs():
+    assert not identify(IdentifyRequest(ARM, (sound_log(ARM, 5), sound_log(ARM, 6)), PLAIN))["conflicts"]
 
 
-def test_a_log_that_is_held_out_as_a_whole_decides_nothing(arm):
-    logs = (_log(arm, 5), _changed(_log(arm, 6), _reverse), _log(arm, 7))
-    document = identify(IdentifyRequest(arm, logs, PLAIN | {"validation": {"logs": [2]}}))
+def test_a_log_that_is_held_out_as_a_whole_decides_nothing():
+    logs = (sound_log(ARM, 5), _changed(sound_log(ARM, 6), _reverse), sound_log(ARM, 7))
+    document = identify(IdentifyRequest(ARM, logs, PLAIN | {"validation": {"logs": [2]}}))
     assert not document["conflicts"]

@@ -5,8 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from tests.core.estimate.worlds import swing, true_parameters
-from veritorque.core.dynamics.model import standard_model
+from tests.core.conflicts.skew_arm import PLAIN, skew_arm, sound_log, table_mapping, write_table
 from veritorque.core.log.model import JointLog, LogRows, whole_rows
 from veritorque.core.log.reader import log_from_arrays, read_log
 from veritorque.core.robot.description import robot_from_description
@@ -14,7 +13,6 @@ from veritorque.core.robot.model import RobotModel
 from veritorque.core.setup_check import check_setup
 from veritorque.core.study import IdentifyRequest, identify
 
-PLAIN = {"bootstrap": {"draws": 0}}
 JOINT = 1
 """The joint, from 0, whose torque is another signal."""
 Made = Callable[[LogRows, np.random.Generator], np.ndarray]
@@ -34,19 +32,9 @@ UNRELATED: dict[str, Made] = {
 
 @pytest.fixture(scope="module")
 def arm() -> tuple[RobotModel, JointLog]:
-    """Give three skew joints with 1 % of noise."""
-    row = {"type": "revolute", "theta_offset": 0.0}
-    rows = [
-        {**row, "alpha": 0.0, "d": 0.0, "r": 0.3},
-        {**row, "alpha": -np.pi / 2, "d": 0.1, "r": 0.0},
-        {**row, "alpha": 0.0, "d": 0.4, "r": 0.1},
-    ]
-    robot = robot_from_description({"name": "arm", "joints": rows})
-    model = standard_model(robot)
-    state = swing(3, seed=5)
-    torque = model.torque(true_parameters(model, seed=3), state)
-    noise = 0.01 * np.sqrt(np.mean(torque**2, axis=0)) * np.random.default_rng(8).normal(size=torque.shape)
-    return robot, log_from_arrays("swing", np.arange(len(torque)) / 100.0, state.position, torque + noise)
+    """Give the arm and a sound log of it."""
+    robot = skew_arm()
+    return robot, sound_log(robot)
 
 
 def _with_torque(log: JointLog, made: Made) -> JointLog:
@@ -91,15 +79,9 @@ def test_a_torque_that_is_constant_is_not_exchanged_with_another(arm, value):
 def test_the_correction_leaves_the_torque_out_of_a_file_that_is_read_by_it(arm, tmp_path):
     robot, log = arm
     rows = whole_rows(_with_torque(log, COPIES["its velocity"]))
-    names = ["t", *(f"q{joint}" for joint in (1, 2, 3)), *(f"tau{joint}" for joint in (1, 2, 3))]
     path = tmp_path / "log.csv"
-    table = np.column_stack([rows.time, rows.position, rows.torque])
-    np.savetxt(path, table, delimiter=",", header=",".join(names), comments="")
-    mapping = {
-        "time": {"column": "t", "unit": "s"},
-        "position": {"columns": names[1:4], "unit": "rad"},
-        "torque": {"columns": names[4:], "unit": "N m"},
-    }
+    write_table(path, rows.time, rows.position, rows.torque)
+    mapping = table_mapping()
     [row] = identify(IdentifyRequest(robot, (read_log(path, mapping=mapping),), PLAIN))["conflicts"]
     again = identify(IdentifyRequest(robot, (read_log(path, mapping=row["correction"]["mapping"]),), PLAIN))
     assert not again["conflicts"]
