@@ -95,7 +95,7 @@ def _fails(found: Path, setup: Setup, trials: Trials) -> bool:
     """Tell whether the model fails on a joint and no correction surely helps."""
     if any(step.confidence > DECISION.most_where_unsure for step in found):
         return False
-    present = trials.outcome(trials.equations(setup))
+    present = trials.outcome(setup)
     used = np.array(setup.assignment.torque.factor) != 0.0
     return present is not None and float(np.max(present.errors[used], initial=0.0)) > DOUBT.unexplained
 

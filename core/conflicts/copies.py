@@ -23,8 +23,8 @@ def without_copies(setup: Setup, trials: Trials) -> Path:
     """Leave out one torque after the other that is a copy; the last torque is kept."""
     path: list[FoundConflict] = []
     while copies := next(copied_signals(setup, trials), ()):
-        before = trials.outcome(trials.equations(setup))
-        fitted = [(own, trials.outcome(trials.equations(own.setup))) for own in copies]
+        before = trials.outcome(setup)
+        fitted = [(own, trials.outcome(own.setup)) for own in copies]
         ranked = sorted(((own, after) for own, after in fitted if after is not None), key=_score_after)
         if not ranked or before is None or not any(ranked[0][0].setup.assignment.torque.factor):
             break
@@ -66,7 +66,7 @@ def only_real_copies(path: Path, trials: Trials) -> Path:
 
 def _is_torque(own: Hypothesis, last: FoundConflict, trials: Trials) -> bool:
     """Tell whether a torque that was left out is predicted, and the others beside it no worse."""
-    back = trials.outcome(trials.equations(_with_torque(last.hypothesis, own).setup))
+    back = trials.outcome(_with_torque(last.hypothesis, own).setup)
     if back is None:
         return False
     place = last.hypothesis.setup.assignment.torque.source.index(own.joints[0] - 1)

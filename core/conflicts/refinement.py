@@ -45,7 +45,7 @@ def _with_gravity_refined(path: Path, described: Setup, trials: Trials) -> Path:
 def _best_mounting(setup: Setup, trials: Trials, equal: float) -> Hypothesis | None:
     """Try every direction of gravity, and give the most usual of those that predict alike."""
     listed = list(CONFLICTS[Mounting.name].hypotheses(setup, trials))
-    outcomes = [trials.outcome(trials.equations(hypothesis.setup)) for hypothesis in listed]
+    outcomes = [trials.outcome(hypothesis.setup) for hypothesis in listed]
     fitted = [(outcome.score, place) for place, outcome in enumerate(outcomes) if outcome is not None]
     alike = [place for score, place in fitted if score <= min(fitted)[0] + equal]
     return listed[alike[0]] if alike else None
@@ -104,7 +104,7 @@ def judged_again(steps: list[tuple[FoundConflict, Hypothesis]], trials: Trials) 
     """Fit changed steps again, one after the other; None where one cannot be fitted."""
     out: list[FoundConflict] = []
     for step, own in steps:
-        after = trials.outcome(trials.equations(own.setup))
+        after = trials.outcome(own.setup)
         if after is None:
             return None
         out.append(replace(step, hypothesis=own, before=out[-1].after if out else step.before, after=after))

@@ -93,7 +93,7 @@ def _merged(sets: list[frozenset[Part]]) -> list[frozenset[Part]]:
 def score_with_forces(setup: Setup, trials: Trials, used: JointMarks | None = None) -> float:
     """Judge a set-up with these forces, on some joints; the worst of all where it cannot be fitted."""
     beside = beside_forces(trials, setup)
-    outcome = beside.outcome(beside.equations(setup))
+    outcome = beside.outcome(setup)
     if outcome is None:
         return np.inf
     return outcome.score if used is None else float(mean_log(outcome.errors[used]))

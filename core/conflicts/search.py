@@ -28,7 +28,7 @@ def find_conflicts(setup: Setup, trials: Trials) -> Path:
     """Search for corrections of a set-up, one after the other; the last one's set-up holds them all."""
     copies = without_copies(setup, trials)
     first = copies[-1].hypothesis.setup if copies else setup
-    present = trials.outcome(trials.equations(first))
+    present = trials.outcome(first)
     path = () if present is None else _Search(trials).path(first, present, TRIAL.most_corrections)
     path = copies + only_needed(refined(path, first, trials), first, trials)
     return _as_sure_as_they_fit(only_real_copies(path, trials), trials)

@@ -147,7 +147,7 @@ def _can_gain(candidate: _Bounded, present: Outcome) -> bool:
 
 
 def _try(candidate: _Bounded, trials: Trials, needed: float) -> _Tried | None:
-    own, outcome = candidate.hypothesis, trials.outcome(candidate.equations)
+    own, outcome = candidate.hypothesis, trials.outcome(candidate.hypothesis.setup)
     if outcome is None or _is_guessed(own, outcome):
         return None
     credit = needed if own.expected else -DECISION.least_gain * (own.corrections - 1)

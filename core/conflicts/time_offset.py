@@ -44,7 +44,7 @@ def time_offset(motion: Motion, setup: Setup, terms: tuple[str, ...] | None) -> 
     bounds = np.array([products.read(own.assignment.torque).bound for own in shifted])
     best = int(np.argmin(bounds))
     seconds = every * step * (best - reach + _vertex(bounds, best))
-    before, after = (trials.outcome(trials.equations(own)) for own in (shifted[reach], shifted[best]))
+    before, after = (trials.outcome(own) for own in (shifted[reach], shifted[best]))
     if abs(seconds) < TIME_OFFSET.least or before is None or after is None:
         return None
     return TimeOffset(seconds, before, after) if _is_clear(before, after, trials, count) else None

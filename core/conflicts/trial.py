@@ -78,6 +78,7 @@ class Trials:
     """Terms beside those of the standard model."""
     _bases: dict[tuple[Link, ...], _Grouped] = field(default_factory=dict)
     _regressors: dict[tuple[object, ...], Regressor] = field(default_factory=dict)
+    _outcomes: dict[tuple[object, ...], Outcome | None] = field(default_factory=dict)
     _families: dict[tuple[object, ...], RegressorFamily] = field(default_factory=dict)
     _links: dict[tuple[object, ...], tuple[Link, ...]] = field(default_factory=dict)
 
@@ -105,8 +106,14 @@ class Trials:
         """Mark the joints that have equations: the others stand all the time."""
         return np.asarray(self.samples.moved(setup.assignment).usable.any(axis=0))
 
-    def outcome(self, equations: Equations) -> Outcome | None:
-        """Fit a set-up with its constraints; None without an accurate optimum, or with too few rows."""
+    def outcome(self, setup: Setup) -> Outcome | None:
+        """Fit a set-up with its constraints, once; None without an accurate optimum, or with too few rows."""
+        key = *_motion_key(setup), setup.assignment.torque
+        if key not in self._outcomes:
+            self._outcomes[key] = self._fit(self.equations(setup))
+        return self._outcomes[key]
+
+    def _fit(self, equations: Equations) -> Outcome | None:
         reduced, base, rows = equations.reduced, equations.regressor.base, equations.regressor.fitted
         if reduced.rows.sum() <= len(base.kept):
             return None

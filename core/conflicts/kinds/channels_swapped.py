@@ -102,7 +102,7 @@ def _sound(setup: Setup, trials: Trials) -> JointMarks:
     """Mark the joints that move and are predicted as they should be."""
     moves, present = trials.moves(setup), None
     if not moves.all():
-        present = trials.outcome(trials.equations(setup))
+        present = trials.outcome(setup)
     return moves & (present.errors < DOUBT.unexplained) if present is not None else np.zeros_like(moves)
 
 

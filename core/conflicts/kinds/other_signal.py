@@ -27,7 +27,7 @@ class OtherSignal(Conflict):
 
     def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
         """Leave out each torque that follows neither the model's columns nor the positions."""
-        present = trials.outcome(trials.equations(setup))
+        present = trials.outcome(setup)
         failed = [] if present is None else np.flatnonzero(present.errors > DECISION.failed).tolist()
         fitted = trials.samples.moved(setup.assignment).usable[~trials.samples.judged].any(axis=0)
         asked = [joint for joint in _measured(setup, trials) if joint in failed and fitted[joint]]
