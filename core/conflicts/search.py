@@ -14,7 +14,9 @@ from .copies import only_real_copies, without_copies
 from .kinds.gear_ratio import GearRatio
 from .kinds.other_signal import OtherSignal
 from .kinds.unit import Unit
+from .parts import holds_in_parts
 from .path import FoundConflict, Margins, Path, cost, unsure
+from .position_forces import beside_forces
 from .reduced import mean_log
 from .refinement import refined
 from .rival import only_needed, score_with_forces
@@ -30,8 +32,19 @@ def find_conflicts(setup: Setup, trials: Trials) -> Path:
     first = copies[-1].hypothesis.setup if copies else setup
     present = trials.outcome(first)
     path = () if present is None else _Search(trials).path(first, present, TRIAL.most_corrections)
-    path = copies + only_needed(refined(path, first, trials), first, trials)
-    return _as_sure_as_they_fit(only_real_copies(path, trials), trials)
+    path = _as_sure_as_steady(only_needed(refined(path, first, trials), first, trials), first, trials)
+    return _as_sure_as_they_fit(only_real_copies(copies + path, trials), trials)
+
+
+def _as_sure_as_steady(path: Path, before: Setup, trials: Trials) -> Path:
+    """Limit the confidence of corrections that do not hold in every part of the samples, also beside forces
+    that follow the positions.
+    """
+    if all(step.hypothesis.expected for step in path):
+        return path
+    after = path[-1].hypothesis.setup
+    ways = (trials, beside_forces(trials, after))
+    return path if any(holds_in_parts(before, after, way) for way in ways) else unsure(path)
 
 
 def _as_sure_as_they_fit(path: Path, trials: Trials) -> Path:

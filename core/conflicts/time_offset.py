@@ -12,6 +12,7 @@ import numpy as np
 from ..arrays import Indices
 from ..log.columns.assignment import Channels
 from ..signals.condition import Motion
+from .parts import holds_in_parts
 from .path import Margins
 from .samples import SERIES, Samples, filtered_series, independent_values
 from .setup import Setup
@@ -47,7 +48,8 @@ def time_offset(motion: Motion, setup: Setup, terms: tuple[str, ...] | None) -> 
     before, after = (trials.outcome(own) for own in (shifted[reach], shifted[best]))
     if abs(seconds) < TIME_OFFSET.least or before is None or after is None:
         return None
-    return TimeOffset(seconds, before, after) if _is_clear(before, after, trials, count) else None
+    clear = _is_clear(before, after, trials, count) and holds_in_parts(shifted[reach], shifted[best], trials)
+    return TimeOffset(seconds, before, after) if clear else None
 
 
 def _is_clear(before: Outcome, after: Outcome, trials: Trials, tried: int) -> bool:

@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import JointMarks, JointVector, Series
+from ..arrays import JointMarks, JointVector, SampleMask, Series
 from ..dynamics.model import standard_model
 from ..dynamics.term import Term
 from ..dynamics.terms.coulomb import Coulomb
@@ -89,6 +89,11 @@ class Trials:
     @cached_property
     def _judged(self) -> Samples:
         return self.samples.at(self.samples.judged)
+
+    def judged_by(self, judged: SampleMask) -> "Trials":
+        """Give trials on the same samples that other rows judge."""
+        samples = replace(self.samples, judged=judged)
+        return Trials(samples, self.terms, self.beside, _bases=self._bases, _links=self._links)
 
     def equations(self, setup: Setup) -> Equations:
         """Write down the equations of a set-up."""
