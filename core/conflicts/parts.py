@@ -14,7 +14,7 @@ from .trial import Trials
 
 
 def holds_in_parts(before: Setup, after: Setup, trials: Trials) -> bool:
-    """Tell whether the gain of a correction is more than its scatter from part to part, and no part is missed.
+    """Tell whether what a correction gains is more than its scatter from part to part, and no part is missed.
 
     Where few independent values judge, it has to leave no part in doubt.
     """
@@ -28,7 +28,7 @@ def holds_in_parts(before: Setup, after: Setup, trials: Trials) -> bool:
 
 
 def _scores(setup: Setup, used: JointMarks, trials: Trials) -> Vector:
-    """Give the mean logarithm of the errors in each part, fitted to the others; not a number where none is."""
+    """Give the mean logarithm of the errors in each part, fitted to the others; NaN where no fit is."""
     samples = len(trials.samples.judged)
     part = np.arange(samples) * DECISION.parts // samples
     outcomes = [trials.judged_by(part == place).outcome(setup) for place in range(DECISION.parts)]

@@ -37,9 +37,7 @@ def find_conflicts(setup: Setup, trials: Trials) -> Path:
 
 
 def _as_sure_as_steady(path: Path, before: Setup, trials: Trials) -> Path:
-    """Limit the confidence of corrections that do not hold in every part of the samples, also beside forces
-    that follow the positions.
-    """
+    """Limit the confidence of corrections that do not hold in every part, beside such forces either."""
     if all(step.hypothesis.expected for step in path):
         return path
     after = path[-1].hypothesis.setup
