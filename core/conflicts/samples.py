@@ -7,6 +7,7 @@ import numpy as np
 
 from ..arrays import BlockKey, InstantSeries, JointMarks, JointMask, JointSeries, SampleMask
 from ..log.columns.assignment import Assignment
+from ..log.defects.unsigned import UNSIGNED
 from ..signals.condition import Motion
 from ..signals.parallel import Tile
 from ..signals.state import MotionState
@@ -30,6 +31,8 @@ class Samples:
     """Whether a row of a joint may be used: the joint moves there."""
     measured: JointMarks
     """Whether a joint's torque was measured at all."""
+    unsigned: JointMarks
+    """Whether a joint's torque is a magnitude."""
     judged: SampleMask
     """Rows that no trial is fitted to."""
     independent: float
@@ -81,7 +84,15 @@ def sampled(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Sampl
     moving = np.abs(series["velocity"][:, silent]) > still[silent]
     usable[:, silent] = usable.any(axis=1, keepdims=True) & moving
     seen = sum(motion.log.duration * motion.recipe.motion_band_hz for motion in motions)
-    return Samples(**series, measured=measured, independent=independent_values(series, seen))
+    unsigned = np.any([_unsigned(motion) for motion in motions], axis=0)
+    count = independent_values(series, seen)
+    return Samples(**series, measured=measured, unsigned=unsigned, independent=count)
+
+
+def _unsigned(motion: Motion) -> JointMarks:
+    """Mark the joints whose torque a log shows to be a magnitude."""
+    shown = {defect.joint for defect in motion.log.defects if defect.kind == UNSIGNED}
+    return np.array([joint + 1 in shown for joint in range(motion.log.joints)])
 
 
 def independent_values(series: dict[str, np.ndarray], cycles: float) -> float:

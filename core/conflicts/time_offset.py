@@ -68,7 +68,8 @@ def _samples(motion: Motion, offsets: Indices) -> Samples | None:
     series = {name: np.concatenate([part[name] for part in parts]) for name in SERIES}
     cycles = motion.log.duration * motion.recipe.motion_band_hz
     measured = ~motion.segments[0].unmeasured
-    return Samples(**series, measured=measured, independent=independent_values(series, cycles))
+    count = independent_values(series, cycles)
+    return Samples(**series, measured=measured, unsigned=np.zeros_like(measured), independent=count)
 
 
 def _with_offsets(run: dict[str, np.ndarray], offsets: Indices, stride: int) -> dict[str, np.ndarray]:

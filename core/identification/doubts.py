@@ -42,6 +42,7 @@ DOUBTFUL = (
     "velocity_mismatch",
     "position_is_reference",
     "shared_position",
+    "unsigned_torque",
     MISSING,
     ONE_DIRECTION,
 )

@@ -18,6 +18,8 @@ from ..setup import Setup
 from ..thresholds import DECISION, OTHER_SIGNAL
 from ..trial import Trials
 
+MAGNITUDE = "a magnitude, which comes to zero and never changes its sign"
+
 
 class OtherSignal(Conflict):
     """Leave out the torque of a joint."""
@@ -40,12 +42,13 @@ class OtherSignal(Conflict):
 
 
 def copied_signals(setup: Setup, trials: Trials) -> Iterator[tuple[Hypothesis, ...]]:
-    """Leave out each torque that repeats a motion; of two torques that are one, either."""
+    """Leave out each torque that has no sign or repeats a motion; of two torques that are one, either."""
     samples = trials.samples.moved(setup.assignment)
     torque = setup.assignment.torque.of(samples.torque)
     measured = _measured(setup, trials)
     for joint in measured:
-        signal = _repeated(joint, torque[:, joint], samples)
+        is_magnitude = samples.unsigned[setup.assignment.torque.source[joint]]
+        signal = MAGNITUDE if is_magnitude else _repeated(joint, torque[:, joint], samples)
         if signal:
             yield (_left_out(setup, joint, f"is {signal}", copied=True),)
             continue

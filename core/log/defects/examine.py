@@ -31,6 +31,7 @@ from .spikes import Spikes
 from .stretch import Facts, Finder, Stretch, stretches
 from .stuck import Stuck
 from .unpowered import Unpowered
+from .unsigned import Unsigned
 from .velocity import Velocity
 
 
@@ -76,6 +77,7 @@ def examine(source: LogSource, layout: Layout, row_in_file: Callable[[int], int]
     finders: list[Finder] = [
         clock, repeats, stuck, filled, unpowered, Saturation(joints), resolution, Rest(samples),
         bandwidth, Direction(joints), Velocity(joints), Reference(joints), Shared(joints),
+        Unsigned(joints),
     ]  # fmt: skip  # a table
     accepted = True
     for stretch in stretches(source):

@@ -22,6 +22,7 @@ COPIES: dict[str, Made] = {
     "another position": lambda rows, _: rows.position[:, 0],
     "its velocity": lambda rows, _: np.gradient(rows.position[:, JOINT], rows.time),
     "another torque": lambda rows, _: rows.torque[:, 2],
+    "its magnitude": lambda rows, _: np.abs(rows.torque[:, JOINT]),
 }
 UNRELATED: dict[str, Made] = {
     "noise": lambda rows, rng: 0.01 * rng.normal(size=len(rows.time)),

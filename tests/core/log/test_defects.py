@@ -509,6 +509,21 @@ def test_two_joints_do_not_share_their_positions(apart, found):
     assert [one.joint for one in shared] == ([3] if found else [])
 
 
+@pytest.mark.parametrize(
+    ("change", "found"),
+    [(np.abs, [2]), (lambda own: -np.abs(own), [2]), (np.asarray, []), (lambda own: own + 3.5, [])],
+    ids=["magnitude", "negative magnitude", "signed", "signed, of one sign"],
+)
+def test_a_torque_without_a_sign_is_a_magnitude(change, found):
+    time = np.arange(0.0, 20.0, 4e-3)
+    position = np.column_stack([np.sin(time), np.cos(1.3 * time)])
+    torque = np.column_stack([np.cos(time), 2.0 * np.sin(1.3 * time) + np.sin(3.1 * time)])
+    torque += 0.01 * np.random.default_rng(8).normal(size=torque.shape)
+    torque[:, 1] = change(torque[:, 1])
+    defects = log_from_arrays("planted", time, position, torque).defects
+    assert [one.joint for one in defects if one.kind == "unsigned_torque"] == found
+
+
 def test_a_torque_that_is_held_for_half_a_log_is_stuck_though_its_recorder_repeats_rows():
     """One recorder in four drops every sixth packet and repeats the last value."""
     rng = np.random.default_rng(4)
