@@ -121,20 +121,35 @@ class ParallelFilter:
         states = np.empty((len(condensed), total, 4 * len(self.modes.poles)))
         carry_decays(condensed, _ROWS, self.modes.poles**self._length, states)
         inner = slice(before, before + blocks)
-        out = condensed[:, inner, :_ROWS] + states[:, inner] @ self._releasing
+        out = states[:, inner] @ self._releasing
+        out += condensed[:, inner, :_ROWS]
         return np.asarray(out.reshape(len(out), blocks * _ROWS)[:, :kept])
 
     def _condensed(self, made: Callable[[slice], Series], samples: int, begin: int, end: int) -> np.ndarray:
         """Give what `_condensing` makes of some blocks: series x blocks x (instants, states)."""
         low = min(max(begin, 0), samples)
         high = max(min(end, samples), low)
-        part = made(slice(low, high))
-        if (low, high) != (begin, end):
-            padded = np.empty((len(part), end - begin))
-            padded[:, : low - begin] = padded[:, high - begin :] = 0.0
-            padded[:, low - begin : high - begin] = part
-            part = padded
-        return np.asarray(part.reshape(len(part), -1, self._length) @ self._condensing)
+        part, before = made(slice(low, high)), low - begin
+        total = (end - begin) // self._length
+        # Samples lack in the blocks at the ends alone. The others are taken as they lie, without a copy.
+        first, last = -(-before // self._length), (high - begin) // self._length
+        first, last = (first, last) if first < last else (total, total)
+        begins, ends = first * self._length - before, last * self._length - before
+        out = np.empty((len(part), total, self._condensing.shape[1]))
+        for series, where in (
+            (part[:, begins:ends], slice(first, last)),
+            (self._padded(part[:, :begins], before, first), slice(first)),
+            (self._padded(part[:, ends:], 0, total - last), slice(last, None)),
+        ):
+            blocks = series.reshape(len(part), -1, self._length)
+            np.matmul(blocks, self._condensing, out=out[:, where])
+        return out
+
+    def _padded(self, series: Series, before: int, blocks: int) -> Series:
+        """Put so many zeros before series, and zeros behind them until they fill some blocks."""
+        padded = np.zeros((len(series), blocks * self._length))
+        padded[:, before : before + series.shape[1]] = series
+        return padded
 
     def influence(self, marks: Series, first: int, kept: int) -> KeptSeries:
         """Give the share of the kernel's absolute mass that falls on marked samples (marks are 0 or 1)."""
