@@ -20,6 +20,8 @@ _ROWS = 16
 """Decimated samples per block: few cost more states per sample, many more products."""
 _BLOCKS = 4
 """Blocks that are made at once of series that are made in parts."""
+_FEWEST = 2
+"""Blocks that are multiplied at once at least: one alone would be rounded in another way."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,26 +132,30 @@ class ParallelFilter:
         low = min(max(begin, 0), samples)
         high = max(min(end, samples), low)
         part, before = made(slice(low, high)), low - begin
-        total = (end - begin) // self._length
+        if (low, high) == (begin, end):
+            return np.asarray(self._in_blocks(part) @ self._condensing)
+        length, total = self._length, (end - begin) // self._length
         # Samples lack in the blocks at the ends alone. The others are taken as they lie, without a copy.
-        first, last = -(-before // self._length), (high - begin) // self._length
-        first, last = (first, last) if first < last else (total, total)
-        begins, ends = first * self._length - before, last * self._length - before
+        first, last = -(-before // length), (high - begin) // length
+        last -= 1 if first + total - last == 1 else 0
+        if last - first < _FEWEST:
+            return np.asarray(self._in_blocks(_with_zeros(part, before, end - begin)) @ self._condensing)
+        begins, ends = first * length - before, last * length - before
+        outer = np.hstack(
+            [
+                _with_zeros(part[:, :begins], before, first * length),
+                _with_zeros(part[:, ends:], 0, (total - last) * length),
+            ]
+        )
         out = np.empty((len(part), total, self._condensing.shape[1]))
-        for series, where in (
-            (part[:, begins:ends], slice(first, last)),
-            (self._padded(part[:, :begins], before, first), slice(first)),
-            (self._padded(part[:, ends:], 0, total - last), slice(last, None)),
-        ):
-            blocks = series.reshape(len(part), -1, self._length)
-            np.matmul(blocks, self._condensing, out=out[:, where])
+        np.matmul(self._in_blocks(part[:, begins:ends]), self._condensing, out=out[:, first:last])
+        condensed = self._in_blocks(outer) @ self._condensing
+        out[:, :first], out[:, last:] = condensed[:, :first], condensed[:, first:]
         return out
 
-    def _padded(self, series: Series, before: int, blocks: int) -> Series:
-        """Put so many zeros before series, and zeros behind them until they fill some blocks."""
-        padded = np.zeros((len(series), blocks * self._length))
-        padded[:, before : before + series.shape[1]] = series
-        return padded
+    def _in_blocks(self, series: Series) -> np.ndarray:
+        """Give series as series x blocks x samples."""
+        return series.reshape(len(series), -1, self._length)
 
     def influence(self, marks: Series, first: int, kept: int) -> KeptSeries:
         """Give the share of the kernel's absolute mass that falls on marked samples (marks are 0 or 1)."""
@@ -162,6 +168,13 @@ class ParallelFilter:
             weights = self._magnitude_band[inside.start - left : inside.stop - left, :rows]
             out[:, begin : begin + rows] = marks[:, inside] @ weights
         return out
+
+
+def _with_zeros(series: Series, before: int, samples: int) -> Series:
+    """Put so many zeros before series, and zeros behind them up to a number of samples."""
+    padded = np.zeros((len(series), samples))
+    padded[:, before : before + series.shape[1]] = series
+    return padded
 
 
 @dataclass(frozen=True, eq=False)
