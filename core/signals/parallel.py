@@ -170,7 +170,7 @@ class ParallelFilter:
         return out
 
 
-def _with_zeros(series: Series, before: int, samples: int) -> Series:
+def _with_zeros(series: Series, before: int, samples: int) -> np.ndarray:
     """Put so many zeros before series, and zeros behind them up to a number of samples."""
     padded = np.zeros((len(series), samples))
     padded[:, before : before + series.shape[1]] = series
