@@ -45,11 +45,12 @@ class Panel:
     """
 
     def __init__(self, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> None:
-        widths = [next(iter(columns.values())).shape[1] for columns in candidates]
-        groups = [[index for index, own in enumerate(widths) if own == width] for width in set(widths)]
+        groups: dict[object, list[int]] = {}
+        for index, columns in enumerate(candidates):
+            width = next(iter(columns.values())).shape[1]
+            groups.setdefault((width, *sorted(columns)), []).append(index)
         self._groups = [
-            (alike, _Alike(joints, [candidates[index] for index in alike], widths[alike[0]]))
-            for alike in groups
+            (alike, _Alike(joints, [candidates[index] for index in alike])) for alike in groups.values()
         ]
 
     def scores(self, found: Fit) -> list[Score]:
@@ -63,43 +64,31 @@ class Panel:
 
 
 class _Alike:
-    """Score candidates of the same number of columns."""
+    """Score candidates of the same number of columns that act on the same joints."""
 
-    def __init__(self, joints: tuple[JointRows, ...], candidates: Sequence[Columns], width: int) -> None:
-        self._count, self._width = len(candidates), width
-        self._present = [
-            np.array([index for index, columns in enumerate(candidates) if joint in columns], dtype=int)
-            for joint in range(len(joints))
-        ]
-        self._columns = [
-            _stack_columns([candidates[index][joint] for index in present], rows.rows)
-            for joint, (rows, present) in enumerate(zip(joints, self._present, strict=True))
-        ]
+    def __init__(self, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> None:
+        self._width = next(iter(candidates[0].values())).shape[1]
+        self._columns = {
+            joint: np.concatenate([columns[joint] for columns in candidates], axis=1)[joints[joint].rows]
+            for joint in candidates[0]
+        }
 
     def scores(self, found: Fit) -> list[Score]:
-        count, size, width = self._count, len(found.values), self._width
-        cross = np.zeros((size, count, width))
-        right, squares = np.zeros((count, width)), np.zeros((count, width))
-        grams = np.zeros((count, width, width))
-        for joint, present in enumerate(self._present):
-            if not len(present):
-                continue
+        size, width = len(found.values), self._width
+        count = next(iter(self._columns.values())).shape[1] // width
+        cross, right = np.zeros((size, count * width)), np.zeros(count * width)
+        squares, grams = np.zeros((count, width)), np.zeros((count, width, width))
+        for joint, columns in self._columns.items():
             own = found.joints[joint]
-            white = own.white(self._columns[joint])
+            white = own.white(columns)
             inside = own.nuisance.in_span(white)
-            right[present] += (found.left[joint] @ white).reshape(-1, width)
-            both = own.columns.T @ white - own.inside.T @ inside
-            cross[np.ix_(own.acting, present)] += both.reshape(len(own.acting), len(present), width)
+            right += found.left[joint] @ white
+            cross[own.acting] += own.columns.T @ white - own.inside.T @ inside
             whole = _grams(white, width)
-            squares[present] += np.diagonal(whole, axis1=1, axis2=2)
-            grams[present] += whole - _grams(inside, width)
-        reduced, _ = dtrtrs(found.factor, cross.reshape(size, -1) / found.scale[:, None], lower=1)
-        return _test_scores(grams - _grams(reduced, width), right, squares)
-
-
-def _stack_columns(columns: Sequence[EquationRows], rows: Indices) -> EquationRows:
-    """Put columns beside each other, and take some of their rows."""
-    return np.concatenate(columns, axis=1)[rows] if columns else np.zeros((len(rows), 0))
+            squares += np.diagonal(whole, axis1=1, axis2=2)
+            grams += whole - _grams(inside, width)
+        reduced, _ = dtrtrs(found.factor, cross / found.scale[:, None], lower=1)
+        return _test_scores(grams - _grams(reduced, width), right.reshape(count, width), squares)
 
 
 def score(found: Fit, joints: tuple[JointRows, ...], candidates: Sequence[Columns]) -> list[Score]:

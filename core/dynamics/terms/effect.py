@@ -36,6 +36,11 @@ class JointTerm(Term):
         """Name the effect together with its joint."""
         return f"{self.kind}_{self.joint}"
 
+    @property
+    def count(self) -> int:
+        """Count the parameters."""
+        return len(self.symbols)
+
 
 class OneJointTerm(JointTerm):
     """Give columns that act on one joint only."""
@@ -49,7 +54,8 @@ class OneJointTerm(JointTerm):
 
     def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
         """Put every parameter on the joint."""
-        return tuple((self.joint - 1, index) for index in range(len(self.parameters(robot))))
+        del robot
+        return tuple((self.joint - 1, index) for index in range(self.count))
 
     def series(self, robot: RobotModel, state: MotionState) -> Series:
         """Give the torque per unit parameter; where the robot matters, an effect gives its own."""
@@ -74,8 +80,7 @@ class AllJointsTerm(JointTerm):
 
     def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
         """Put every parameter on every joint."""
-        count = len(self.parameters(robot))
-        return tuple((joint, index) for index in range(count) for joint in range(len(robot.joints)))
+        return tuple((joint, index) for index in range(self.count) for joint in range(len(robot.joints)))
 
     def series(self, robot: RobotModel, state: MotionState) -> Series:
         """Give the torque per unit parameter, joint after joint for each parameter."""

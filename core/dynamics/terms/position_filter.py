@@ -87,16 +87,17 @@ def _taken(state: MotionState, cutoff: float, order: int, most: int) -> list[Ser
     rate = 1.0 / step_of(state)
     reach = min(int(np.ceil(PERIODS * rate / cutoff)), len(state.position) - 1)
     transformed, length = _transformed(state, reach)
-    frequency, size = np.fft.rfftfreq(length, 1.0 / rate), 2 * (len(transformed) - 1)
+    frequency, size = np.fft.rfftfreq(length, 1.0 / rate), 2 * (transformed.shape[1] - 1)
     passed = gain(frequency, cutoff_hz=min(cutoff, HIGHEST * rate), rate_hz=rate, order=order)
     inverse = np.sum((1.0 - passed) ** np.arange(1.0, most + 1.0)[:, None], axis=0)
-    added = irfft(transformed * inverse[:, None], size, axis=0)[reach : reach + len(state.position)]
-    return np.split(np.ascontiguousarray(added.T), 3)
+    added = irfft(transformed * inverse, size)[:, reach : reach + len(state.position)]
+    return np.split(np.ascontiguousarray(added), 3)
 
 
 @lru_cache(maxsize=8)
 def _transformed(state: MotionState, reach: int) -> tuple[np.ndarray, int]:
     """Transform a motion that is continued at its ends; give the length too. Filters share it."""
-    padded = np.pad(np.hstack(_parts(state)), ((reach, reach), (0, 0)), mode="reflect", reflect_type="odd")
-    length = next_fast_len(len(padded), real=True)
-    return rfft(padded, 2 * (length // 2), axis=0), length
+    series = np.vstack([part.T for part in _parts(state)])
+    padded = np.pad(series, ((0, 0), (reach, reach)), mode="reflect", reflect_type="odd")
+    length = next_fast_len(padded.shape[1], real=True)
+    return rfft(padded, 2 * (length // 2)), length

@@ -6,6 +6,7 @@ Identification (1999), ch. 4.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -35,4 +36,10 @@ class Delay(AllJointsTerm):
         if self.around == 0.0 or state.time is None:
             return [-rates(torque, state)[0]]
         then = np.clip(state.time - self.around, state.time[0], state.time[-1])
-        return [(CubicSpline(state.time, torque)(then) - torque) / self.around]
+        return [(_between_samples(self.believed, state)(then) - torque) / self.around]
+
+
+@lru_cache(maxsize=8)
+def _between_samples(believed: Prediction, state: MotionState) -> CubicSpline:
+    """Give the predicted torque at any time; all delays of a scan share it."""
+    return CubicSpline(np.asarray(state.time), believed.scaled(state))

@@ -8,6 +8,7 @@ name.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import accumulate, repeat
 
 import numpy as np
@@ -45,9 +46,13 @@ class Trace(OneJointTerm):
         """List a number per column."""
         del robot
         return tuple(
-            Parameter(f"trace_{index}", self.joint, self.joint, "N m", None)
-            for index in range(_COUNTS[self.pattern])
+            Parameter(f"trace_{index}", self.joint, self.joint, "N m", None) for index in range(self.count)
         )
+
+    @property
+    def count(self) -> int:
+        """Count the columns of the pattern."""
+        return _COUNTS[self.pattern]
 
     @property
     def source(self) -> tuple[object, ...]:
@@ -98,8 +103,14 @@ FACTORS: tuple[Callable[[Samples], Samples], ...] = (
 def _angle(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
     other, harmonic, factor = int(numbers[0]) - 1, numbers[1], int(numbers[2])
     size = FACTORS[factor](state.velocity[:, own])
-    angle = harmonic * state.position[:, other]
-    return [size * np.cos(angle), size * np.sin(angle)]
+    return [size * wave for wave in _waves(other, harmonic, state)]
+
+
+@lru_cache(maxsize=32)
+def _waves(joint: int, harmonic: float, state: MotionState) -> tuple[Samples, Samples]:
+    """Give cosine and sine of a multiple of a joint's angle; all joints and factors of a scan share them."""
+    angle = harmonic * state.position[:, joint]
+    return np.cos(angle), np.sin(angle)
 
 
 def _clock(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:

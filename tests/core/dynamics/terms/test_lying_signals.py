@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 from tests.core.dynamics.terms.chains import JOINTS, described_chain, exact, motion_of, one_viscous_joint
 from veritorque.core.dynamics.prediction import shift_joint
@@ -94,6 +95,15 @@ def test_a_short_filter_is_a_delay():
     (filtered,) = FilterLag(0, described, 1e-3).torques(robot, state)
     (delayed,) = Delay(0, described).torques(robot, state)
     np.testing.assert_allclose(filtered[100:-2], delayed[100:-2], atol=0.006 * np.abs(delayed).max())
+
+
+def test_a_delayed_torque_is_that_of_the_motion_at_hand():
+    described, robot = one_viscous_joint(), one_viscous_joint().model.robot
+    for state in (sine(5.0), sine(2.0), sine(5.0)):  # what delays share must not pass to another motion
+        torque = described.scaled(state)
+        earlier = np.clip(state.time - 0.02, state.time[0], state.time[-1])
+        (column,) = Delay(0, described, 0.02).torques(robot, state)
+        np.testing.assert_array_equal(column, (CubicSpline(state.time, torque)(earlier) - torque) / 0.02)
 
 
 def test_the_columns_of_an_encoder_do_not_depend_on_where_the_log_begins():
