@@ -20,8 +20,6 @@ _ROWS = 16
 """Decimated samples per block: few cost more states per sample, many more products."""
 _BLOCKS = 4
 """Blocks that are made at once of series that are made in parts."""
-_FEWEST = 2
-"""Blocks that are multiplied at once at least: one alone would be rounded in another way."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,31 +129,13 @@ class ParallelFilter:
         """Give what `_condensing` makes of some blocks: series x blocks x (instants, states)."""
         low = min(max(begin, 0), samples)
         high = max(min(end, samples), low)
-        part, before = made(slice(low, high)), low - begin
-        if (low, high) == (begin, end):
-            return np.asarray(self._in_blocks(part) @ self._condensing)
-        length, total = self._length, (end - begin) // self._length
-        # Samples lack in the blocks at the ends alone. The others are taken as they lie, without a copy.
-        first, last = -(-before // length), (high - begin) // length
-        last -= 1 if first + total - last == 1 else 0
-        if last - first < _FEWEST:
-            return np.asarray(self._in_blocks(_with_zeros(part, before, end - begin)) @ self._condensing)
-        begins, ends = first * length - before, last * length - before
-        outer = np.hstack(
-            [
-                _with_zeros(part[:, :begins], before, first * length),
-                _with_zeros(part[:, ends:], 0, (total - last) * length),
-            ]
-        )
-        out = np.empty((len(part), total, self._condensing.shape[1]))
-        np.matmul(self._in_blocks(part[:, begins:ends]), self._condensing, out=out[:, first:last])
-        condensed = self._in_blocks(outer) @ self._condensing
-        out[:, :first], out[:, last:] = condensed[:, :first], condensed[:, first:]
-        return out
-
-    def _in_blocks(self, series: Series) -> np.ndarray:
-        """Give series as series x blocks x samples."""
-        return series.reshape(len(series), -1, self._length)
+        part = made(slice(low, high))
+        if (low, high) != (begin, end):
+            padded = np.empty((len(part), end - begin))
+            padded[:, : low - begin] = padded[:, high - begin :] = 0.0
+            padded[:, low - begin : high - begin] = part
+            part = padded
+        return np.asarray(part.reshape(len(part), -1, self._length) @ self._condensing)
 
     def influence(self, marks: Series, first: int, kept: int) -> KeptSeries:
         """Give the share of the kernel's absolute mass that falls on marked samples (marks are 0 or 1)."""
@@ -168,13 +148,6 @@ class ParallelFilter:
             weights = self._magnitude_band[inside.start - left : inside.stop - left, :rows]
             out[:, begin : begin + rows] = marks[:, inside] @ weights
         return out
-
-
-def _with_zeros(series: Series, before: int, samples: int) -> np.ndarray:
-    """Put so many zeros before series, and zeros behind them up to a number of samples."""
-    padded = np.zeros((len(series), samples))
-    padded[:, before : before + series.shape[1]] = series
-    return padded
 
 
 @dataclass(frozen=True, eq=False)
