@@ -1,5 +1,7 @@
 """A model without inertia has no motion to simulate: whoever simulates refuses it by name."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -12,6 +14,7 @@ MODEL = standard_model(planar_robot())
 LOG = log_of(MODEL, true_parameters(MODEL), swing(2))
 
 
+@cache
 def found(estimator: str, *terms: str) -> np.ndarray:
     asked = {"estimator": estimator, "bootstrap": {"draws": 0}, "terms": list(terms)}
     return identify_in_full(IdentifyRequest(MODEL.robot, (LOG,), asked)).estimate.base
