@@ -101,7 +101,7 @@ def _significant(rows: np.ndarray) -> np.ndarray:
     sizes = np.einsum("ijk,ijk->ij", rows, rows)
     nothing = sizes <= RIDGE * sizes.max(axis=0)
     rows[nothing] = 0.0
-    return ~nothing
+    return np.asarray(~nothing)
 
 
 def _own_columns(significant: Sequence[np.ndarray], columns_of: Sequence[Indices]) -> np.ndarray:
