@@ -8,6 +8,7 @@ import pytest
 from tests.core.estimate.worlds import log_of, planar_robot, swing, true_parameters
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.errors import OptionError
+from veritorque.core.simulation.closed_loop.free_windows import FreeWindows
 from veritorque.core.study import IdentifyRequest, identify_in_full
 
 MODEL = standard_model(planar_robot())
@@ -26,3 +27,14 @@ def test_it_is_refused_where_motion_is_simulated_and_fitted_where_it_is_not(esti
     assert len(found("sdp", *terms)) == 4
     with pytest.raises(OptionError, match="without inertia"):
         found(estimator, *terms)
+
+
+def test_nothing_is_simulated_before_it_is_refused(monkeypatch):
+    """Free motion over short windows of such a model took seconds, and was refused afterwards."""
+
+    def simulate(*_):
+        raise AssertionError("simulated")
+
+    monkeypatch.setattr(FreeWindows, "rows", simulate)
+    with pytest.raises(OptionError, match="without inertia"):
+        found("oe", "coulomb", "viscous")
