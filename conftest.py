@@ -32,10 +32,15 @@ CHECKED_PACKAGES = (
     "veritorque.core.validation",
 )
 
+COMPILED = (("regressor", "simulation"), ("numerics",))
+"""Packages of core with kernels, in two parts that share none: they are compiled at the same time."""
+
+ROOT = Path(__file__).parent
+
 collect_ignore = ["veritorque/app/store/migrations/env.py"]  # a script, which only Alembic can run
 
 # Where `make serve` keeps its kernels: services that tests start compile none again.
-os.environ.setdefault("NUMBA_CACHE_DIR", str(Path(__file__).parent / "data" / "kernels"))
+os.environ.setdefault("NUMBA_CACHE_DIR", str(ROOT / "data" / "kernels"))
 
 # Each of the many processes that tests start would compile every module again where bytecode is switched off.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
@@ -56,8 +61,23 @@ settings.load_profile("veritorque")
 def pytest_configure(config: pytest.Config) -> None:
     """Compile the kernels once, before several processes that each would compile all of them are started."""
     if getattr(config.option, "numprocesses", None):
-        root = Path(__file__).parent
-        subprocess.run([sys.executable, "-c", "import veritorque.core.study"], cwd=root, check=True)
+        compiling = [_compiling(*folders) for folders in COMPILED]
+        for one in compiling:
+            if one.wait():
+                raise subprocess.CalledProcessError(one.returncode, one.args)
+
+
+def _compiling(*folders: str) -> subprocess.Popen[bytes]:
+    """Start a process that compiles the kernels of some packages of core, by importing their modules."""
+    files = [file for folder in folders for file in sorted((ROOT / "core" / folder).rglob("*.py"))]
+    names = [".".join(file.relative_to(ROOT).with_suffix("").parts) for file in files if _has_kernels(file)]
+    modules = ", ".join(f"veritorque.{name}" for name in names)
+    command = [sys.executable, "-c", f"import {modules}"]
+    return subprocess.Popen(command, cwd=ROOT)  # noqa: S603  # modules of our own, without a shell
+
+
+def _has_kernels(file: Path) -> bool:
+    return "from numba import" in file.read_text(encoding="utf-8")
 
 
 @pytest.hookimpl(tryfirst=True)

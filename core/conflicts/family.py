@@ -11,7 +11,7 @@ import numpy as np
 
 from ..arrays import Indices, JointVector, Matrix, Series, Vector
 from ..log.columns.assignment import Channels
-from .reduced import RIDGE, Reduced
+from .reduced import RIDGE, Reduced, ridge
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,19 +67,21 @@ def family(
 
     Columns of one joint alone that no coordinate changes are projected out.
     """
-    whole = [_significant(np.stack(rows)) for rows in zip(*parts, strict=True)]
-    own = _own_columns(whole, columns_of)
+    whole = [np.stack(rows) for rows in zip(*parts, strict=True)]
+    changed = [_significant(rows) for rows in whole]
+    own = _own_columns(changed, columns_of)
     place, size = np.cumsum(~own) - 1, np.count_nonzero(~own)
     joints, channels, every = len(columns_of), len(torque[0]), len(parts) * size
     products, moments = np.zeros((joints, every, every)), np.zeros((joints, every, channels))
     squares, torques = np.zeros((2, joints, channels))
-    for joint, (rows, columns, measured) in enumerate(zip(whole, columns_of, torque, strict=True)):
+    joined = zip(whole, changed, columns_of, torque, strict=True)
+    for joint, (rows, significant, columns, measured) in enumerate(joined):
         mine = own[columns]
-        part, row = np.nonzero(rows[:, ~mine].any(axis=2))
+        part, row = np.nonzero(significant[:, ~mine])
         at = part * size + place[columns[~mine][row]]
-        left = _without_own(rows[0, mine], rows[:, ~mine][part, row], measured)
-        products[joint][np.ix_(at, at)], moments[joint, at], squares[joint] = left
         torques[joint] = np.einsum("ij,ij->i", measured, measured)
+        left = _without_own(rows[0, mine], rows[:, ~mine][part, row], measured, torques[joint])
+        products[joint][np.ix_(at, at)], moments[joint, at], squares[joint] = left
     count = np.array([float(max(measured.shape[1], 1)) for measured in torque])
     shape = joints, len(parts), size
     return RegressorFamily(
@@ -92,33 +94,37 @@ def family(
 
 
 def _significant(rows: np.ndarray) -> np.ndarray:
-    """Leave out what differences of parts leave by rounding of a column that no coordinate changes."""
+    """Tell which columns of which parts are not zero: parts x columns.
+
+    What differences of parts leave by rounding of a column that no coordinate changes is made zero.
+    """
     sizes = np.einsum("ijk,ijk->ij", rows, rows)
-    rows[sizes <= RIDGE * sizes.max(axis=0)] = 0.0
-    return rows
+    nothing = sizes <= RIDGE * sizes.max(axis=0)
+    rows[nothing] = 0.0
+    return np.asarray(~nothing)
 
 
-def _own_columns(whole: Sequence[np.ndarray], columns_of: Sequence[Indices]) -> np.ndarray:
+def _own_columns(significant: Sequence[np.ndarray], columns_of: Sequence[Indices]) -> np.ndarray:
     """Tell which columns are of one joint alone, and the same whatever the coordinates."""
     users = np.zeros(1 + max(int(columns.max(initial=-1)) for columns in columns_of))
-    for rows, columns in zip(whole, columns_of, strict=True):
+    for parts, columns in zip(significant, columns_of, strict=True):
         users[columns] += 1.0
-        users[columns[rows[1:].any(axis=(0, 2))]] = np.inf
+        users[columns[parts[1:].any(axis=0)]] = np.inf
     return np.asarray(users == 1.0)
 
 
-def _without_own(own: Series, shared: Series, torque: Series) -> tuple[Matrix, Matrix, Vector]:
+def _without_own(own: Series, shared: Series, torque: Series, whole: Vector) -> tuple[Matrix, Matrix, Vector]:
     """Give the products of shared columns with each other and with torques, and the torques' squares.
 
-    Own columns are projected out of all of them. The torques may be many: they have no products.
+    Own columns are projected out of all of them, also out of the squares of the `whole` torques. The torques
+    may be many: they have no products.
     """
-    norms = np.linalg.norm(own, axis=1)
+    norms = np.sqrt(np.add.reduce(own * own, axis=1))
     scaled = own / np.where(norms > 0.0, norms, 1.0)[:, None]
-    alone = scaled @ scaled.T + RIDGE * np.eye(len(own))
+    alone = scaled @ scaled.T + ridge(len(own))
     beside, along = scaled @ shared.T, scaled @ torque.T
     across, taken = np.linalg.solve(alone, beside), np.linalg.solve(alone, along)
     products, moments = shared @ shared.T - beside.T @ across, shared @ torque.T - beside.T @ taken
-    whole = np.einsum("ij,ij->i", torque, torque)
     squares = np.maximum(whole - np.einsum("ij,ij->j", along, taken), 0.0)
     # Nothing is left of a column that is but for rounding in the span of the own ones.
     spanned = np.diag(products) <= RIDGE * np.einsum("ij,ij->i", shared, shared)

@@ -7,11 +7,11 @@ more for several set-ups: what they share is taken once, and their small equatio
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 
-from ..arrays import Vector
+from ..arrays import SquareMatrix, Vector
 from .thresholds import TRIAL
 
 RIDGE = 1e-11
@@ -120,8 +120,16 @@ def mean_log(errors: np.ndarray) -> np.ndarray:
     return np.asarray(np.mean(np.log(np.maximum(errors, TRIAL.least_error)), axis=-1))
 
 
+@cache
+def ridge(size: int) -> SquareMatrix:
+    """Give what is added to scaled products."""
+    added = RIDGE * np.eye(size)
+    added.setflags(write=False)
+    return added
+
+
 def _solved(product: np.ndarray, moment: np.ndarray) -> np.ndarray:
-    norms = np.sqrt(np.maximum(np.einsum("...ii->...i", product), 0.0))
+    norms = np.sqrt(np.maximum(np.diagonal(product, axis1=-2, axis2=-1), 0.0))
     scale = np.where(norms > 0.0, norms, 1.0)
-    scaled = product / (scale[..., :, None] * scale[..., None, :]) + RIDGE * np.eye(product.shape[-1])
+    scaled = product / (scale[..., :, None] * scale[..., None, :]) + ridge(product.shape[-1])
     return np.asarray(np.linalg.solve(scaled, (moment / scale)[..., None])[..., 0] / scale)

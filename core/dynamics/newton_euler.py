@@ -31,7 +31,7 @@ def inverse_dynamics(robot: RobotModel, links: LinkTable, state: MotionState) ->
     """
     poses = [_pose(link, state) for link in robot.links]
     spins = _spins(robot, poses, state)
-    wrenches = [_wrench(body, *spin) for body, spin in zip(links, spins, strict=True)]
+    wrenches = [_wrench(_inertias(body), *spin) for body, spin in zip(links, spins, strict=True)]
     forces, moments = [force for force, _ in wrenches], [moment for _, moment in wrenches]
     torque = np.zeros_like(state.position, dtype=float)
     for index in range(len(robot.links) - 1, -1, -1):
@@ -41,7 +41,7 @@ def inverse_dynamics(robot: RobotModel, links: LinkTable, state: MotionState) ->
         if link.antecedent:
             force = np.einsum("sij,sj->si", rotation, forces[index])
             forces[link.antecedent - 1] += force
-            moments[link.antecedent - 1] += np.einsum("sij,sj->si", rotation, moments[index]) + np.cross(
+            moments[link.antecedent - 1] += np.einsum("sij,sj->si", rotation, moments[index]) + _cross(
                 shift, force
             )
     return torque
@@ -64,15 +64,16 @@ def unit_torques(robot: RobotModel, number: int, state: MotionState) -> np.ndarr
     """
     poses = [_pose(link, state) for link in robot.links]
     spin = _spins(robot, poses, state)[number - 1]
-    wrenches = [_wrench(body, *spin) for body in np.eye(10)]
-    force, moment = (np.stack(parts, axis=-1) for parts in zip(*wrenches, strict=True))
+    inertia, first, mass = (np.stack(parts) for parts in zip(*map(_inertias, np.eye(10)), strict=True))
+    wrenches = _wrench((inertia, first[:, None], mass[:, None, None]), *spin)
+    force, moment = (np.ascontiguousarray(part.transpose(1, 2, 0)) for part in wrenches)
     torque = np.zeros((10, *state.position.shape))
     while number:
         link, (rotation, shift) = robot.links[number - 1], poses[number - 1]
         carried = moment if link.kind == "revolute" else force
         torque[:, :, link.joint - 1] += link.ratio * carried[:, 2].T
         force, moment = rotation @ force, rotation @ moment
-        moment += np.cross(shift[:, :, None], force, axis=1)
+        moment += _cross(shift[:, :, None], force, axis=1)
         number = link.antecedent
     return torque
 
@@ -114,17 +115,39 @@ def _advance(
     spin, spin_rate, acceleration = before
     speed = link.ratio * state.velocity[:, link.joint - 1, None] * _Z
     speed_rate = link.ratio * state.acceleration[:, link.joint - 1, None] * _Z
-    carried = acceleration + np.cross(spin_rate, shift) + np.cross(spin, np.cross(spin, shift))
+    carried = acceleration + _cross(spin_rate, shift) + _cross(spin, _cross(spin, shift))
     spin, spin_rate, carried = (np.einsum("sij,si->sj", rotation, v) for v in (spin, spin_rate, carried))
     if link.kind == "revolute":
-        return spin + speed, spin_rate + speed_rate + np.cross(spin, speed), carried
-    return spin, spin_rate, carried + speed_rate + 2.0 * np.cross(spin, speed)
+        return spin + speed, spin_rate + speed_rate + _cross(spin, speed), carried
+    return spin, spin_rate, carried + speed_rate + 2.0 * _cross(spin, speed)
+
+
+def _inertias(body: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Give a body's inertia about the frame's origin, its first moments and its mass."""
+    return inertia_about_origin(body), body[6:9], body[9]
 
 
 def _wrench(
-    body: np.ndarray, spin: np.ndarray, spin_rate: np.ndarray, acceleration: np.ndarray
+    body: tuple[np.ndarray, np.ndarray, np.ndarray],
+    spin: np.ndarray,
+    spin_rate: np.ndarray,
+    acceleration: np.ndarray,
 ) -> tuple[np.ndarray, np.ndarray]:
-    inertia, first, mass = inertia_about_origin(body), body[6:9], body[9]
-    force = mass * acceleration + np.cross(spin_rate, first) + np.cross(spin, np.cross(spin, first))
-    moment = spin_rate @ inertia + np.cross(spin, spin @ inertia) + np.cross(first, acceleration)
+    inertia, first, mass = body
+    force = mass * acceleration + _cross(spin_rate, first) + _cross(spin, _cross(spin, first))
+    moment = spin_rate @ inertia + _cross(spin, spin @ inertia) + _cross(first, acceleration)
     return force, moment
+
+
+def _cross(one: np.ndarray, other: np.ndarray, axis: int = -1) -> np.ndarray:
+    """Give the vector product along an axis, digit by digit that of `numpy.cross`, without its preparations.
+
+    They take longer than the product of some hundred vectors.
+    """
+    one, other = one.swapaxes(axis, -1), other.swapaxes(axis, -1)
+    product = np.empty(np.broadcast_shapes(one.shape, other.shape))
+    for index in range(3):
+        after, before = (index + 1) % 3, (index + 2) % 3
+        np.multiply(one[..., after], other[..., before], out=product[..., index])
+        product[..., index] -= one[..., before] * other[..., after]
+    return product.swapaxes(axis, -1)

@@ -83,6 +83,15 @@ class Simulator:
         """
         from ..simulation.closed_loop.simulated import SimulatedMotion
 
+        self._require_inertia()
+        mechanism = mechanism_of(self.base.model, at)
+        pairs = zip(self.motions, self._sources(mechanism), strict=True)
+        return tuple(
+            SimulatedMotion(motion, mechanism, source, self._substeps(motion, mechanism))
+            for motion, source in pairs
+        )
+
+    def _require_inertia(self) -> None:
         model = self.base.model
         if not {"kg", "kg m2"} & {parameter.unit for parameter in model.parameters}:
             raise OptionError(
@@ -90,12 +99,6 @@ class Simulator:
                 evidence={"terms": [term.name for term in model.terms]},
                 remedy="put rigid_body among the terms, or ask for estimator sdp, which simulates nothing",
             )
-        mechanism = mechanism_of(self.base.model, at)
-        pairs = zip(self.motions, self._sources(mechanism), strict=True)
-        return tuple(
-            SimulatedMotion(motion, mechanism, source, self._substeps(motion, mechanism))
-            for motion, source in pairs
-        )
 
     def _substeps(self, motion: Motion, mechanism: Mechanism) -> int | None:
         """Give the steps per sample: those asked for, or as many as springs need, whichever are more."""
@@ -123,10 +126,16 @@ class Simulator:
         ----------
         changes
             By how much each base parameter is changed.
+
+        Raises
+        ------
+        OptionError
+            If the model has no inertia.
         """
         from ..simulation.closed_loop.free_windows import FreeWindows
         from ..simulation.closed_loop.sensitivities import Sensitivities
 
+        self._require_inertia()
         pairs = zip(self.base.kept, changes, strict=True)
         robots = [at, *(at + change * np.eye(len(at))[kept] for kept, change in pairs)]
         mechanisms = [mechanism_of(self.base.model, robot) for robot in robots]

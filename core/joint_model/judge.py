@@ -13,7 +13,7 @@ from ..errors import ExcitationError
 from ..validation.springs_seen import HIGHEST_SHARE, reasons_unseen, torque_share
 from .orders import TIME_UNIT, Quantity, differences
 from .record import JointRecord
-from .refined_iv import Fitted, residual
+from .refined_iv import Fitted, residual, torque_part
 from .result import FoundModel, HeldOut, Known
 
 CLEAR: Final = 3.0
@@ -66,7 +66,8 @@ def held_out(fitted: Fitted, simulated: Samples | None) -> HeldOut:
     left = residual(fitted.model, task)
     settled, rows, first = left.settled(task.fitted), slice(task.fitted, None), slice(0, task.fitted)
     blocks = np.array_split(settled[rows] / left.feedthrough, BLOCKS)
-    errors = [100.0 * _rms(settled[part]) / _rms(left.torque[part]) for part in (rows, first)]
+    torque = torque_part(fitted.model, task)
+    errors = [100.0 * _rms(settled[part]) / _rms(torque[part]) for part in (rows, first)]
     squares = np.array([float(np.mean(block**2)) for block in blocks])
     if simulated is None:
         return HeldOut(errors[0], errors[1], squares)

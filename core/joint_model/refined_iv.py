@@ -8,6 +8,7 @@ Garnier & Gilson 2008; Gilson, Garnier, Young & Van den Hof 2011 (closed loop).
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -15,7 +16,7 @@ import numpy as np
 from ..arrays import Matrix, Samples, SquareMatrix, Vector
 from ..errors import SolverError
 from .orders import TIME_UNIT
-from .responses import feedthrough, filtered, powers, spectral_factor, transients
+from .responses import feedthrough, filtered, lower_powers, powers, spectral_factor, transients
 from .task import Model, Signals, Task
 
 MOST_STEPS: Final = 20
@@ -29,6 +30,8 @@ near the smallest innovations, not there."""
 BLOCKS: Final = 60
 """Blocks of rows whose sums are taken for independent: each has hundreds of rows, and 60 give a deviation to
 10 %."""
+_REMEMBERED: Final = 4
+"""Models whose residuals are kept: a step is judged by what it leaves, and the next one begins there."""
 _SINGULAR: Final = 1e-13
 """Columns depend on each other where a singular value of the equations is this share of the largest."""
 
@@ -60,8 +63,6 @@ class Residual:
     values: Samples
     transients: Matrix
     """What any beginning leaves behind."""
-    torque: Samples
-    """The part of the torque alone: B / C times it."""
     feedthrough: float
     """By how much a sample of position enters its own residual."""
 
@@ -75,6 +76,7 @@ class Residual:
         return float(np.std(self.settled(fitted)[:fitted]) / self.feedthrough)
 
 
+@lru_cache(maxsize=_REMEMBERED)
 def denominators(model: Model, crossover: float) -> tuple[Vector, Vector]:
     """Give A and C."""
     order = model.order
@@ -83,6 +85,7 @@ def denominators(model: Model, crossover: float) -> tuple[Vector, Vector]:
     return denominator, spectral_factor(denominator, order.numerator(model.coefficients), ratio)
 
 
+@lru_cache(maxsize=_REMEMBERED)
 def residual(model: Model, task: Task) -> Residual:
     """Give what a model leaves of the measured position.
 
@@ -95,15 +98,20 @@ def residual(model: Model, task: Task) -> Residual:
     left = task.position - _driven(model, task.signals, denominator, task.step)
     if not np.isfinite(left).all():
         raise _diverged(model)
-    states = powers(noise, left, task.step, "first")
+    states = lower_powers(noise, left, task.step, "first")
     missing = (noise - denominator)[:0:-1]
-    numerator = model.order.numerator(model.coefficients)
     return Residual(
-        left - states[:, :-1] @ missing,
+        left - states @ missing,
         transients(noise, len(left), task.step),
-        filtered(numerator, noise, task.signals.torque, task.step, "zero"),
         feedthrough(denominator, noise, task.step),
     )
+
+
+def torque_part(model: Model, task: Task) -> Samples:
+    """Give the part of the torque in the filtered position: B / C times it."""
+    _, noise = denominators(model, task.crossover)
+    numerator = model.order.numerator(model.coefficients)
+    return filtered(numerator, noise, task.signals.torque, task.step, "zero")
 
 
 def fit(model: Model, task: Task, *, most: int = MOST_STEPS) -> Fitted:

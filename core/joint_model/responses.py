@@ -69,11 +69,17 @@ def powers(denominator: Vector, series: Samples, step: float, hold: Hold) -> Mat
     step
         Time between samples.
     """
+    states = lower_powers(denominator, series, step, hold)
+    return np.column_stack([states, series - states @ denominator[:0:-1]])
+
+
+def lower_powers(denominator: Vector, series: Samples, step: float, hold: Hold) -> Matrix:
+    """Give the same without the highest power, which takes a pass of its own."""
     transition, held, rising = _sampled_filter(tuple(denominator.tolist()), step)
     last, new = (held - rising, rising) if hold == "first" else (held, np.zeros_like(held))
     states = np.zeros((len(series), len(held)))
     run_states(transition, last, new, np.ascontiguousarray(series, dtype=float), states)
-    return np.column_stack([states, series - states @ denominator[:0:-1]])
+    return states
 
 
 def feedthrough(numerator: Vector, denominator: Vector, step: float) -> float:
@@ -103,7 +109,8 @@ def filtered(numerator: Vector, denominator: Vector, series: Samples, step: floa
     >>> filtered(np.array([1.0]), np.array([1.0, 1.0]), np.ones(3), 1.0, "zero").round(4)
     array([0.    , 0.6321, 0.8647])
     """
-    return np.asarray(powers(denominator, series, step, hold)[:, : len(numerator)] @ numerator[::-1])
+    needed = powers if len(numerator) == len(denominator) else lower_powers
+    return np.asarray(needed(denominator, series, step, hold)[:, : len(numerator)] @ numerator[::-1])
 
 
 def transients(denominator: Vector, samples: int, step: float) -> Matrix:

@@ -145,17 +145,19 @@ def recorded(arm: FlexibleArm, highest_hz: float, seconds: float, seed: int = 1)
     model = arm.engine()
     data = mujoco.MjData(model)
     count, every = arm.joints, round(1.0 / (RATE * STEP))
-    motors = [model.joint(f"m{j}").qposadr[0] for j in range(count)]
+    first, *others = (int(model.joint(f"m{j}").qposadr[0]) for j in range(count))
+    motors = np.s_[first :: others[0] - first] if others else np.s_[first : first + 1]
+    angle, speed, push = data.qpos[motors], data.qvel[motors], data.qfrc_applied[motors]  # as they are now
     reference, rate = _reference(count, highest_hz, seconds, seed)
     inertia = np.array(arm.seen) + np.array(arm.rotors)
     kp, kd = 400.0 * inertia, 28.0 * inertia
     position, torque = np.zeros((2, len(reference) // every, count))
     mujoco.mj_forward(model, data)
     for k in range(len(reference)):
-        command = kp * (reference[k] - data.qpos[motors]) + kd * (rate[k] - data.qvel[motors])
+        command = kp * (reference[k] - angle) + kd * (rate[k] - speed)
         if k % every == 0:
-            position[k // every], torque[k // every] = data.qpos[motors], command
-        data.qfrc_applied[motors] = command
+            position[k // every], torque[k // every] = angle, command
+        push[:] = command
         mujoco.mj_step(model, data)
     return Recorded(np.arange(len(position)) / RATE, position, torque)
 

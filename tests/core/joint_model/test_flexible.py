@@ -12,7 +12,7 @@ from veritorque.core.document.joint_model import joint_document
 from veritorque.core.errors import ExcitationError, OptionError, SolverError
 from veritorque.core.identification.identify import no_progress
 from veritorque.core.joint_identification import JointRequest, model_joint
-from veritorque.core.joint_model import refined_iv, responses, start
+from veritorque.core.joint_model import responses
 from veritorque.core.joint_model.identify import identify_joint
 from veritorque.core.joint_model.options import JointOptions
 from veritorque.core.joint_model.result import JointModel
@@ -162,14 +162,12 @@ def test_gravity_acts_on_the_link_and_not_on_the_motor():
 def test_a_torque_that_is_taken_for_straight_between_samples_biases_the_joint(monkeypatch):
     plant = Plant.with_mode(40.0)
     signals = recorded(plant, Run(highest_hz=60.0, seconds=4.0))
-    true_powers = responses.powers
+    true_powers = responses.lower_powers
 
     def straight(denominator, series, step, hold):
         return true_powers(denominator, series, step, "first")
 
-    monkeypatch.setattr(responses, "powers", straight)
-    monkeypatch.setattr(refined_iv, "powers", straight)
-    monkeypatch.setattr(start, "powers", straight)
+    monkeypatch.setattr(responses, "lower_powers", straight)  # of which all others are made
     wrong = identify_joint(robot_of(), log_of(signals), JointOptions(1), no_progress)
     share, deviations = errors(wrong, plant)["motor_inertia"]
     assert share > 0.01
