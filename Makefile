@@ -45,7 +45,7 @@ demo: $(READY) ## identify a YuMi arm through the service, then diagnose a log i
 serve: $(READY) ## start the service on loopback and print its URL
 	$(RUN) -m veritorque serve
 
-# A third of what tests take is waiting for services and browsers: three of them keep two processors busy.
+# A third of what tests take is waiting for services and browsers; to collect them on a third worker costs more.
 test: $(READY) ## run every test (WORKERS=n at the same time, 2 by default)
 	$(RUN) -m pytest -n $(or $(WORKERS),2) $(ARGS)
 

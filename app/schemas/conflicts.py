@@ -56,7 +56,8 @@ class Conflict(Open):
     error_before_percent: Annotated[
         float | None,
         about(
-            "geometric mean over joints of residual over torque, RMS, on rows not fitted; null for time_base"
+            "geometric mean, over joints whose torque is used, of residual over torque, RMS, on rows not "
+            "fitted; null for time_base"
         ),
     ]
     error_after_percent: float | None

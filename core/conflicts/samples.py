@@ -32,7 +32,7 @@ class Samples:
     measured: JointMarks
     """Whether a joint's torque was measured at all."""
     unsigned: JointMarks
-    """Whether a joint's torque is a magnitude."""
+    """Whether a joint's torque is a magnitude in all logs."""
     judged: SampleMask
     """Rows that no trial is fitted to."""
     independent: float
@@ -84,7 +84,7 @@ def sampled(motions: tuple[Motion, ...], held_out: frozenset[BlockKey]) -> Sampl
     moving = np.abs(series["velocity"][:, silent]) > still[silent]
     usable[:, silent] = usable.any(axis=1, keepdims=True) & moving
     seen = sum(motion.log.duration * motion.recipe.motion_band_hz for motion in motions)
-    unsigned = np.any([_unsigned(motion) for motion in motions], axis=0)
+    unsigned = np.all([_unsigned(motion) for motion in motions], axis=0)
     count = independent_values(series, seen)
     return Samples(**series, measured=measured, unsigned=unsigned, independent=count)
 

@@ -9,6 +9,7 @@ import numpy as np
 from ..conflicts.check import Conflicts
 from ..conflicts.conflict import Hypothesis
 from ..conflicts.path import FoundConflict
+from ..conflicts.reduced import mean_log
 from ..conflicts.setup import Setup
 from ..conflicts.time_offset import TimeOffset
 from ..errors import VeritorqueError
@@ -59,10 +60,8 @@ def conflict_sentence(row: dict[str, object]) -> str:
     end = (
         "Everything below is computed with this correction" if row["applied"] else f"Remedy: {row['remedy']}"
     )
-    return (
-        f"Robot and log disagree: {row['statement']}; corrected, the mean error falls from {before:.3g} to "
-        f"{after:.3g} %. {end}"
-    )
+    falls = f"; corrected, the mean error falls from {before:.3g} to {after:.3g} %" if after < before else ""
+    return f"Robot and log disagree: {row['statement']}{falls}. {end}"
 
 
 def because_of(rows: list[dict[str, object]], failure: VeritorqueError) -> VeritorqueError:
@@ -89,13 +88,14 @@ def with_conflicts(document: dict[str, object], rows: list[dict[str, object]]) -
 
 def _row(found: FoundConflict, correction: dict[str, object], *, applied: bool) -> dict[str, object]:
     hypothesis, before, after = found.hypothesis, found.before, found.after
+    used = np.array(hypothesis.setup.assignment.torque.factor) != 0.0
     return {
         "conflict": hypothesis.conflict,
         "joints": hypothesis.joints,
         "channel": hypothesis.channel,
         "confidence": found.confidence,
-        "error_before_percent": 100.0 * np.exp(before.score),
-        "error_after_percent": 100.0 * np.exp(after.score),
+        "error_before_percent": 100.0 * np.exp(mean_log(before.errors[used])),
+        "error_after_percent": 100.0 * np.exp(mean_log(after.errors[used])),
         "joint_errors_before_percent": 100.0 * before.errors,
         "joint_errors_after_percent": 100.0 * after.errors,
         "applied": applied,

@@ -18,7 +18,7 @@ from ..setup import Setup
 from ..thresholds import DECISION, OTHER_SIGNAL
 from ..trial import Trials
 
-MAGNITUDE = "a magnitude, which comes to zero and never changes its sign"
+MAGNITUDE = "without a sign: it comes to zero and never passes it"
 
 
 class OtherSignal(Conflict):

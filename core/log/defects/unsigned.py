@@ -46,8 +46,8 @@ class Unsigned:
                 int(self._visits[joint]),
                 (),
                 f"The {channel} of joint {joint + 1} comes to zero {self._visits[joint]} times and never "
-                "changes its sign: it is a magnitude. Map the signed channel; without it, leave this one out "
-                "by a scale of 0.",
+                "changes its sign: it is a magnitude, or one sign is cut off. Map the signed channel, "
+                "or leave this one out by a scale of 0.",
             )
             for joint in map(int, np.flatnonzero(one_sign & (self._visits >= LEAST_VISITS)))
             if facts.travels(joint)

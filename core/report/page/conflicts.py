@@ -42,7 +42,7 @@ def other_warnings(document: Document) -> list[str]:
 
 def _heading(conflict: Document) -> str:
     before, after = conflict["error_before_percent"], conflict["error_after_percent"]
-    fall = "" if before is None else f", error {number(before)} → {number(after)} %"
+    fall = "" if before is None or after >= before else f", error {number(before)} → {number(after)} %"
     return f"Robot and log disagree: {conflict['remedy']}{fall}"
 
 

@@ -38,13 +38,23 @@ def _replace(rows: LogRows) -> None:
     rows.torque[:, 1] = np.gradient(rows.position[:, 1], rows.time)
 
 
-SPOILT = {"torque_sign": _reverse, "unit": _enlarge, "zero_offset": _turn, "other_signal": _replace}
+def _rectify(rows: LogRows) -> None:
+    rows.torque[:, 1] = np.abs(rows.torque[:, 1])
 
 
-@pytest.mark.parametrize("conflict", sorted(SPOILT))
-def test_it_is_said_of_the_log_that_is_spoilt(conflict):
+SPOILT = [
+    ("torque_sign", _reverse),
+    ("unit", _enlarge),
+    ("zero_offset", _turn),
+    ("other_signal", _replace),
+    ("other_signal", _rectify),
+]
+
+
+@pytest.mark.parametrize(("conflict", "change"), SPOILT)
+def test_it_is_said_of_the_log_that_is_spoilt(conflict, change):
     """Reversed in all logs, the torque of a joint fitted one log and failed on the sound ones."""
-    logs = (sound_log(ARM, 5), _changed(sound_log(ARM, 6), SPOILT[conflict]))
+    logs = (sound_log(ARM, 5), _changed(sound_log(ARM, 6), change))
     document = identify(IdentifyRequest(ARM, logs, PLAIN))
     [row] = document["conflicts"]
     assert (row["conflict"], row["joints"], row["applied"]) == (conflict, [2], False)

@@ -39,7 +39,7 @@ const COMPUTED = {
 
 function entry(conflict) {
   const { error_before_percent: before, error_after_percent: after } = conflict;
-  const fall = before === null ? "" : `, error ${number(before, 3)} → ${number(after, 3)}\u00a0%`;
+  const fall = before === null || after >= before ? "" : `, error ${number(before, 3)} → ${number(after, 3)}\u00a0%`;
   return [
     element("h2", {}, `Robot and log disagree: ${conflict.remedy}${fall}`),
     element("p", {}, `${capital(conflict.statement)}. Confidence ${percent(conflict.confidence)}.`),
