@@ -6,8 +6,9 @@ it adds. A part in which the robot is elsewhere it does not: what it gains there
 
 import numpy as np
 
-from ..arrays import JointMarks, Vector
+from ..arrays import Indices, JointMarks, Vector
 from .reduced import mean_log
+from .samples import Samples
 from .setup import Setup
 from .thresholds import DECISION, DOUBT
 from .trial import Trials
@@ -29,7 +30,20 @@ def holds_in_parts(before: Setup, after: Setup, trials: Trials) -> bool:
 
 def _scores(setup: Setup, used: JointMarks, trials: Trials) -> Vector:
     """Give the mean logarithm of the errors in each part, fitted to the others; NaN where no fit is."""
-    samples = len(trials.samples.judged)
-    part = np.arange(samples) * DECISION.parts // samples
+    part = _parts(trials.samples)
     outcomes = [trials.judged_by(part == place).outcome(setup) for place in range(DECISION.parts)]
     return np.array([np.nan if own is None else mean_log(own.errors[used]) for own in outcomes])
+
+
+def _parts(samples: Samples) -> Indices:
+    """Give the part of every row: where joints move one after the other, each has its own in every part.
+
+    A row is counted among those in which the same joint moves most, beside its own largest speed.
+    """
+    speed = np.abs(samples.velocity)
+    most = np.argmax(speed / np.maximum(speed.max(axis=0), np.finfo(float).tiny), axis=1)
+    part = np.empty(len(most), dtype=int)
+    for joint in np.unique(most):
+        rows = np.flatnonzero(most == joint)
+        part[rows] = np.arange(len(rows)) * DECISION.parts // len(rows)
+    return part
