@@ -14,7 +14,7 @@ from .copies import only_real_copies, without_copies
 from .kinds.gear_ratio import GearRatio
 from .kinds.other_signal import OtherSignal
 from .kinds.unit import Unit
-from .parts import holds_in_parts
+from .parts import holds_in_parts, judges_the_same
 from .path import FoundConflict, Margins, Path, cost, unsure
 from .position_forces import beside_forces
 from .reduced import mean_log
@@ -37,12 +37,16 @@ def find_conflicts(setup: Setup, trials: Trials) -> Path:
 
 
 def _as_sure_as_steady(path: Path, before: Setup, trials: Trials) -> Path:
-    """Limit the confidence of corrections that do not hold in every part, beside such forces either."""
+    """Limit the confidence of corrections that do not hold in every part, beside such forces either.
+
+    So too where what they gain is an error of other data.
+    """
     if all(step.hypothesis.expected for step in path):
         return path
     after = path[-1].hypothesis.setup
     ways = (trials, beside_forces(trials, after))
-    return path if any(holds_in_parts(before, after, way) for way in ways) else unsure(path)
+    holds = any(holds_in_parts(before, after, way) for way in ways)
+    return path if holds and judges_the_same(before, after, trials.samples) else unsure(path)
 
 
 def _as_sure_as_they_fit(path: Path, trials: Trials) -> Path:

@@ -4,9 +4,13 @@ import numpy as np
 import pytest
 
 from tests.conflicts.score import PLAIN
+from tests.core.conflicts.skew_arm import skew_arm
+from tests.core.estimate.worlds import true_parameters
 from tests.plant.cases import draw_clean
+from veritorque.core.dynamics.model import standard_model
 from veritorque.core.log.model import whole_rows
 from veritorque.core.log.reader import log_from_arrays
+from veritorque.core.signals.state import MotionState
 from veritorque.core.study import IdentifyRequest, identify
 
 
@@ -64,3 +68,42 @@ def test_strong_effects_in_a_short_log_are_no_wrong_set_up(robot, seed, duration
 @pytest.mark.parametrize(("robot", "seed"), [("planar-2", 4207), ("planar-3", 4256)])
 def test_a_reversed_torque_is_named_in_as_short_a_log(robot, seed):
     assert named(robot, seed, 9.0, reversed_joint=1) == [("torque_sign", 2)]
+
+
+def one_after_the_other(seed):
+    """Move three joints in turn, for ten seconds each: states, and the torques that they take."""
+    rng, time = np.random.default_rng(seed), np.arange(0.0, 30.0, 0.01)
+    position = np.tile(rng.uniform(-0.6, 0.6, 3), (len(time), 1))
+    for joint in range(3):
+        share = np.clip(time / 10.0 - joint, 0.0, 1.0)
+        waves = [np.sin(2.0 * np.pi * hertz * time + rng.uniform(0.0, 6.0)) for hertz in (0.3, 0.6, 1.0)]
+        position[:, joint] += 0.4 * np.sin(np.pi * share) ** 2 * np.sum(waves, axis=0)
+    velocity = np.gradient(position, time, axis=0)
+    state = MotionState(position, velocity, np.gradient(velocity, time, axis=0), np.zeros(len(time)))
+    model = standard_model(skew_arm())
+    torque = model.torque(true_parameters(model, seed=3), state)
+    return time, position, torque + 0.01 * torque.std(axis=0) * rng.normal(size=torque.shape)
+
+
+def conflicts_of(time, position, torque):
+    """List what is named, with its confidence."""
+    log = log_from_arrays("log", time, position, torque)
+    document = identify(IdentifyRequest(skew_arm(), (log,), PLAIN))
+    return [(row["conflict"], row["joints"], row["confidence"]) for row in document["conflicts"]]
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_reversed_torque_is_sure_where_joints_move_one_after_the_other(seed):
+    time, position, torque = one_after_the_other(seed)
+    [(conflict, joints, confidence)] = conflicts_of(time, position, torque * np.array([1.0, -1.0, 1.0]))
+    assert (conflict, joints) == ("torque_sign", [2])
+    assert confidence > 0.9
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_no_exchange_of_torques_is_sure_there(seed):
+    """Each torque is then judged in other rows than before, and the errors do not compare."""
+    time, position, torque = one_after_the_other(seed)
+    rows = conflicts_of(time, position, torque[:, [0, 2, 1]])
+    assert rows
+    assert all(confidence <= 0.5 for *_, confidence in rows)
