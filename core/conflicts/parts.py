@@ -64,7 +64,7 @@ def _parts(samples: Samples) -> Indices:
     speed = np.abs(samples.velocity)
     most = np.argmax(speed / np.maximum(speed.max(axis=0), np.finfo(float).tiny), axis=1)
     for joint in np.unique(most):
-        part[most == joint] = _in_order(np.count_nonzero(most == joint))
+        part[most == joint] = _in_order(int(np.count_nonzero(most == joint)))
     return part
 
 

@@ -54,8 +54,8 @@ def _rows_of_log(
 
 def conflict_sentence(row: dict[str, object]) -> str:
     """Say a conflict as a warning."""
-    before, after = row["error_before_percent"], row["error_after_percent"]
-    if before is None:
+    before, after = (cast("float | None", row[f"error_{when}_percent"]) for when in ("before", "after"))
+    if before is None or after is None:
         return f"The log contradicts itself: {row['statement']}. Remedy: {row['remedy']}"
     end = (
         "Everything below is computed with this correction" if row["applied"] else f"Remedy: {row['remedy']}"
