@@ -75,7 +75,7 @@ class Decision:
     of the measured robots leave at most 0.15."""
     same_rows: float = 0.5
     """Share of the rows in which a torque is judged after a correction that it was judged in before.
-    Set by hand. On eight robots whose joints move at once it is 0.97 at least, where they move one by one 0."""
+    Set by hand. On eight robots whose joints move at once it is 0.97 at least, where these move in turn 0."""
     least_gain: float = 0.15
     """Natural logarithm by which the joints' mean error has to fall: a seventh. Set by hand: on the four
     measured robots as described, no other set-up reaches 0.11."""

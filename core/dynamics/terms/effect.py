@@ -36,11 +36,6 @@ class JointTerm(Term):
         """Name the effect together with its joint."""
         return f"{self.kind}_{self.joint}"
 
-    @property
-    def count(self) -> int:
-        """Count the parameters."""
-        return len(self.symbols)
-
 
 class OneJointTerm(JointTerm):
     """Give columns that act on one joint only."""
@@ -54,8 +49,7 @@ class OneJointTerm(JointTerm):
 
     def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
         """Put every parameter on the joint."""
-        del robot
-        return tuple((self.joint - 1, index) for index in range(self.count))
+        return tuple((self.joint - 1, index) for index in range(len(self.parameters(robot))))
 
     def series(self, robot: RobotModel, state: MotionState) -> Series:
         """Give the torque per unit parameter; where the robot matters, an effect gives its own."""
@@ -80,7 +74,8 @@ class AllJointsTerm(JointTerm):
 
     def entries(self, robot: RobotModel) -> tuple[Entry, ...]:
         """Put every parameter on every joint."""
-        return tuple((joint, index) for index in range(self.count) for joint in range(len(robot.joints)))
+        count = len(self.parameters(robot))
+        return tuple((joint, index) for index in range(count) for joint in range(len(robot.joints)))
 
     def series(self, robot: RobotModel, state: MotionState) -> Series:
         """Give the torque per unit parameter, joint after joint for each parameter."""

@@ -46,13 +46,9 @@ class Trace(OneJointTerm):
         """List a number per column."""
         del robot
         return tuple(
-            Parameter(f"trace_{index}", self.joint, self.joint, "N m", None) for index in range(self.count)
+            Parameter(f"trace_{index}", self.joint, self.joint, "N m", None)
+            for index in range(_COUNTS[self.pattern])
         )
-
-    @property
-    def count(self) -> int:
-        """Count the columns of the pattern."""
-        return _COUNTS[self.pattern]
 
     @property
     def source(self) -> tuple[object, ...]:
