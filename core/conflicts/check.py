@@ -96,7 +96,7 @@ def _fails(found: Path, setup: Setup, trials: Trials) -> bool:
     if any(step.confidence > DECISION.most_where_unsure for step in found):
         return False
     present = trials.outcome(setup)
-    used = np.array(setup.assignment.torque.factor) != 0.0
+    used = setup.uses_torque
     return present is not None and float(np.max(present.errors[used], initial=0.0)) > DOUBT.unexplained
 
 

@@ -21,12 +21,11 @@ def holds_in_parts(before: Setup, after: Setup, trials: Trials) -> bool:
 
     Where few independent values judge, it has to leave no part in doubt.
     """
-    used = np.array(after.assignment.torque.factor) != 0.0
-    present, corrected = (_scores(setup, used, trials) for setup in (before, after))
+    present, corrected = (_scores(setup, after.uses_torque, trials) for setup in (before, after))
     gains = present - corrected
     error = float(np.std(gains, ddof=1)) / np.sqrt(DECISION.parts)
     steady = float(np.mean(gains)) > DECISION.more_than_scatter * error
-    few = trials.samples.independent * after.joints < DECISION.few
+    few = trials.samples.independent * after.joints < DECISION.few_values
     return steady and bool(np.max(corrected) < np.log(DOUBT.unexplained if few else DECISION.left_in_part))
 
 

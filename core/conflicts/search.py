@@ -58,7 +58,7 @@ def _as_sure_as_they_fit(path: Path, trials: Trials) -> Path:
     if not path:
         return path
     before, last = path[0].before, path[-1]
-    used = np.array(last.hypothesis.setup.assignment.torque.factor) != 0.0
+    used = last.hypothesis.setup.uses_torque
     score = float(mean_log(last.after.errors[used]))
     most = max(np.log(DOUBT.unexplained), float(mean_log(before.errors[used])) + np.log(DECISION.least_share))
     fails = float(np.max(last.after.errors[used], initial=0.0)) > DECISION.failed

@@ -2,7 +2,9 @@
 
 from dataclasses import dataclass, replace
 
-from ..arrays import Vector3
+import numpy as np
+
+from ..arrays import JointMarks, Vector3
 from ..log.columns.assignment import Assignment, Channels
 from ..robot.model import Link, RobotModel
 
@@ -21,6 +23,11 @@ class Setup:
     def joints(self) -> int:
         """Count the joints."""
         return len(self.robot.joints)
+
+    @property
+    def uses_torque(self) -> JointMarks:
+        """Mark the joints whose torque is used: those of the others are multiplied by zero."""
+        return np.asarray(np.array(self.assignment.torque.factor) != 0.0)
 
     def with_position(self, channels: Channels) -> "Setup":
         """Assign the position channels in another way."""

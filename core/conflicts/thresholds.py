@@ -58,7 +58,7 @@ class Decision:
     least_share: float = 0.5
     """Share of the mean error before, if not less than a tenth, that corrections may leave to be more likely
     than not. Set by hand."""
-    few: float = 10.0
+    few_values: float = 10.0
     """Independent values of all joints among the rows that judge below which a correction has to leave every
     part out of doubt. Set by hand, as the ten values per unknown of regression; the measured robots have from
     32 in 30 s."""

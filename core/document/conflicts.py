@@ -88,7 +88,7 @@ def with_conflicts(document: dict[str, object], rows: list[dict[str, object]]) -
 
 def _row(found: FoundConflict, correction: dict[str, object], *, applied: bool) -> dict[str, object]:
     hypothesis, before, after = found.hypothesis, found.before, found.after
-    used = np.array(hypothesis.setup.assignment.torque.factor) != 0.0
+    used = hypothesis.setup.uses_torque
     return {
         "conflict": hypothesis.conflict,
         "joints": hypothesis.joints,
