@@ -11,30 +11,27 @@ from functools import partial
 import numpy as np
 
 from ..arrays import JointSeries
-from .bandwidth import Fitted, limit_bandwidth
-from .causes.external_contact import ExternalContact
-from .causes.registry import AGAINST_REFERENCE, CAUSES, SAMPLE_CHECKS
+from .causes.registry import AGAINST_REFERENCE, CAUSES
 from .checks.alternatives import Comparison, compare_alternatives
 from .checks.bursts import burst
 from .checks.change_points import switching_candidates
-from .checks.clipped_channel import ClippedChannel, clipped_channels
-from .checks.contact_at_rest import contacts_at_rest
-from .checks.findings import finding, sample_finding
-from .checks.holdout_outliers import Explained, has_holdout_outliers, with_other_holdout, with_typical_holdout
+from .checks.findings import finding
+from .checks.holdout_outliers import has_holdout_outliers, with_other_holdout
 from .checks.instruments import Instruments
 from .checks.kurtosis import bounded_residual
 from .checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
 from .checks.lagging_reference import beside_reference, lagging_reference
-from .checks.reservations import beside_dead_zones
+from .checks.samples import check_samples, dataset_of
 from .checks.spring_resonance import beside_what_swings
 from .checks.structure_left import StructureLeft, nothing_beside_structure
-from .dataset.dataset import Dataset, build_dataset, later_torque, refuse_too_little, refuse_unjudged
+from .dataset.dataset import later_torque
+from .dataset.refusals import refuse_too_little
 from .problem import DiagnosisProblem
 from .residual.atlas import atlas
 from .residual.learner import Predictable, predictable_share
 from .result import Diagnosis, Finding, NotIdentifiable, UnnamedPattern, Verdict
 from .search.alignment import restart_from_alignment
-from .search.fitter import HypothesisFitter, hypothesis_fitter
+from .search.fitter import HypothesisFitter
 from .search.hypothesis import Candidate
 from .search.likelihood_ratio import likelihood_ratio, log_p
 from .search.motion_band import drop_what_motion_does_not_show
@@ -56,11 +53,11 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
         If the logs hold too little motion for a fit.
     """
     tell = progress or _no_progress
-    faults, plain = _check_samples(problem)
+    problem, faults, plain = check_samples(problem)
     refuse_too_little(plain.dataset, problem.plan)
     found = _search_causes(_with_causes(problem, plain), tell)
     found = restart_from_alignment(found, partial(later_torque, plain.dataset))
-    found = drop_what_motion_does_not_show(found, partial(_dataset, problem))
+    found = drop_what_motion_does_not_show(found, partial(dataset_of, problem))
     tell("compare alternatives", 0.6)
     lagging = lagging_reference(found)
     found, comparisons = _compare(found)
@@ -71,7 +68,7 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     unnamed = _most_significant(unnamed, burst(dataset, after))
     checks = Instruments(fitter, chosen), StructureLeft(fitter, chosen)
     named = [finding(found, own, after, statistic, checks) for own in comparisons]
-    findings = beside_reference(beside_dead_zones([*named, *faults]), lagging)
+    findings = beside_reference([*named, *faults], lagging)
     findings, swings = beside_what_swings(findings)
     doubted = any((lagging, swings, nothing_beside_structure(findings)))
     tell("predict the residual", 0.8)
@@ -134,13 +131,6 @@ def _search(
     return restart_at_operating_point(found)
 
 
-def _dataset(problem: DiagnosisProblem, width: float) -> Dataset:
-    """Give the data set of a width."""
-    return build_dataset(
-        problem.model, problem.logs, held_out=problem.held_out, blocks=problem.blocks, width=width
-    )
-
-
 def _compare(found: SearchState) -> tuple[SearchState, list[Comparison]]:
     """Keep the causes that pass the comparison, and search for those that the dropped ones excluded."""
     kept, comparisons = compare_alternatives(found)
@@ -151,50 +141,6 @@ def _compare(found: SearchState) -> tuple[SearchState, list[Comparison]]:
         # What follows is linearised where that search ended.
         kept = replace(kept, fitter=more.fitter)
     return kept, comparisons
-
-
-def _check_samples(problem: DiagnosisProblem) -> tuple[list[Finding], HypothesisFitter]:
-    """Check the samples at a wide band, then limit the band to where positions are not all noise.
-
-    Gives a fitter without causes on that band.
-    """
-    fits: list[Fitted] = []
-    plain: list[Explained] = []
-
-    def fit_at(width: float) -> Fitted:
-        dataset = _dataset(problem, width)
-        refuse_too_little(dataset, problem.plan)
-        refuse_unjudged(dataset, fits[0][0] if fits else dataset)
-        fitter, found = _plain_fit(hypothesis_fitter(dataset, problem.plan, ()))
-        plain.append((fitter, found))
-        noise = tuple(joint.noise for joint in found.fit.joints)
-        fits.append((dataset, fitter.linearised_at(found).operating_point, noise))
-        return fits[-1]
-
-    dataset, _, _ = limit_bandwidth(fit_at)
-    wide, operating_point, _ = fits[0]
-    faults = [
-        sample_finding(check, fault, wide)
-        for check in SAMPLE_CHECKS
-        for fault in check.examine(wide, operating_point)
-    ]
-    pushes = contacts_at_rest(wide, operating_point)
-    faults += [sample_finding(ExternalContact(), push, wide) for push in pushes]
-    faults += [
-        sample_finding(ClippedChannel(), limit, wide) for limit in clipped_channels(wide, operating_point)
-    ]
-    fitter = replace(plain[-1][0], dataset=dataset)
-    typical = with_typical_holdout(dataset, plain[-1], lambda other: _plain_fit(fitter.with_dataset(other)))
-    return faults, fitter if typical is dataset else fitter.with_dataset(typical)
-
-
-def _plain_fit(fitter: HypothesisFitter) -> Explained:
-    """Fit the model without any cause, under ordinary noise where too much is left to the noise."""
-    found = fitter.fit(())
-    if fitter.needs_ordinary_noise(found):
-        fitter = fitter.with_ordinary_noise()
-        found = fitter.fit(())
-    return fitter, found
 
 
 def _not_identifiable(found: SearchState) -> tuple[NotIdentifiable, ...]:

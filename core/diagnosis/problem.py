@@ -7,6 +7,7 @@ from ..dynamics.model import DynamicModel
 from ..identification.reference import Reference
 from ..log.model import JointLog
 from ..regressor.columns import ColumnPlan
+from ..signals.dead_zone import DeadZone
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,6 +22,8 @@ class DiagnosisProblem:
     """Blocks of every log that no fit may see, and how many blocks a log has."""
     reference: Reference | None = None
     """What the logs are compared with; None to identify the model from the logs first."""
+    zones: tuple[DeadZone, ...] = ()
+    """Dead zones of torque channels, as far as they are known."""
 
     @property
     def model(self) -> DynamicModel:

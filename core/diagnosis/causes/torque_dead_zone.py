@@ -6,7 +6,9 @@ zero where it has nothing does so next to torques of any size, a dead zone next 
 dense within the zone as beside it: as many nonzero ones as there are zeros fill as wide a range.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from scipy.stats import poisson
@@ -16,31 +18,12 @@ from ...dynamics.prediction import Prediction
 from ...numerics.marked_runs import marked_runs
 from ...robot.joint_units import joint_unit
 from ...signals.condition import Motion
+from ...signals.dead_zone import DeadZone
 from ...signals.resample import effort_of
 from ..dataset.dataset import Dataset
 from ..thresholds.dataset import ROWS, SAMPLE_CHECKS
 from .protocol import Quantity
 from .sample_check import SampleCheck, SampleFinding, share_of_residual
-
-
-@dataclass(frozen=True, eq=False)
-class _Zone:
-    """Hold the dead zone of a channel."""
-
-    half: float
-    deviation: float
-    """Half of its width and its deviation, N m or N."""
-    shrinks: bool
-    """Whether it takes as much from what it passes."""
-    zeros: int
-    share: float
-    """Samples in motion that read zero, and their share."""
-    p_value: float
-
-    def error(self, torque: Samples) -> Samples:
-        """Give what the channel adds to a torque."""
-        taken = np.clip(torque, -self.half, self.half) if self.shrinks else torque
-        return np.asarray(-np.where(self.shrinks | (np.abs(torque) < self.half), taken, 0.0))
 
 
 @dataclass(frozen=True)
@@ -55,17 +38,25 @@ class TorqueDeadZone(SampleCheck):
 
     def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
         """Count zeros of every channel while its joint moves."""
-        found = []
-        for joint in range(dataset.joints):
-            zones = [_zone(dataset, number, joint) for number in range(len(dataset.motions))]
-            known = [zone for zone in zones if zone is not None]
-            if known:
-                widest = max(known, key=lambda zone: zone.half)
-                found.append(_finding(dataset, operating_point, joint, widest))
-        return tuple(found)
+        return zone_findings(dataset, operating_point, dead_zones(dataset))
 
 
-def _zone(dataset: Dataset, number: int, joint: int) -> _Zone | None:
+def zone_findings(
+    dataset: Dataset, operating_point: Prediction, zones: Sequence[DeadZone]
+) -> tuple[SampleFinding, ...]:
+    """State zones, and the share of the residual that each accounts for."""
+    return tuple(_finding(dataset, operating_point, zone) for zone in zones)
+
+
+def dead_zones(dataset: Dataset) -> tuple[DeadZone, ...]:
+    """Find the widest dead zone of every channel that has one."""
+    asked = product(range(len(dataset.motions)), range(dataset.joints))
+    known = (_zone(dataset, log, joint) for log, joint in asked)
+    widest_last = sorted((zone for zone in known if zone is not None), key=lambda zone: zone.half)
+    return tuple({zone.joint: zone for zone in widest_last}.values())
+
+
+def _zone(dataset: Dataset, number: int, joint: int) -> DeadZone | None:
     """Find the dead zone of a channel in one log."""
     motion = dataset.motions[number]
     time, effort = _efforts(motion, joint)
@@ -96,7 +87,7 @@ def _zone(dataset: Dataset, number: int, joint: int) -> _Zone | None:
     # The least of torques that lie so densely is one distance off the edge, by the exponential law.
     deviation = float(np.hypot(scatter, next_width - width)) if shrinks else width / zeros
     share = zeros / (zeros + len(others))
-    return _Zone(half, deviation, shrinks, zeros, share, max(p_value, 1e-300))
+    return DeadZone(joint, half, deviation, shrinks, zeros, share, max(p_value, 1e-300))
 
 
 def _efforts(motion: Motion, joint: int) -> tuple[Samples, Samples]:
@@ -105,30 +96,29 @@ def _efforts(motion: Motion, joint: int) -> tuple[Samples, Samples]:
     return rows.time, effort_of(rows)[:, joint] * motion.effort_scale[joint]
 
 
-def _finding(dataset: Dataset, operating_point: Prediction, joint: int, zone: _Zone) -> SampleFinding:
-    unit = joint_unit(dataset.robot, joint + 1, "N m")
-    size = Quantity("half_width", joint + 1, unit, zone.half, zone.deviation)
+def _finding(dataset: Dataset, operating_point: Prediction, zone: DeadZone) -> SampleFinding:
+    joint = zone.joint + 1
+    unit = joint_unit(dataset.robot, joint, "N m")
+    size = Quantity("half_width", joint, unit, zone.half, zone.deviation)
     larger = "and larger ones too little by as much" if zone.shrinks else "and larger ones what they are"
     return SampleFinding(
-        site=(joint + 1,),
+        site=(joint,),
         quantities=(size,),
         statement=(
-            f"Dead zone of torque channel {joint + 1}: torques below {size.text} read zero, {larger}; "
+            f"Dead zone of torque channel {joint}: torques below {size.text} read zero, {larger}; "
             f"{zone.zeros} samples in motion, {100.0 * zone.share:.2g} %, are exactly zero"
         ),
         statistic=float(zone.zeros),
         p_value=zone.p_value,
-        residual_share=share_of_residual(
-            dataset, operating_point, _added(dataset, operating_point, joint, zone)
-        ),
+        residual_share=share_of_residual(dataset, operating_point, _added(dataset, operating_point, zone)),
     )
 
 
-def _added(dataset: Dataset, operating_point: Prediction, joint: int, zone: _Zone) -> JointSeries:
+def _added(dataset: Dataset, operating_point: Prediction, zone: DeadZone) -> JointSeries:
     """Give what the zone adds to the predicted torque at the data set's rows."""
     added = np.zeros_like(dataset.torque)
     for stretch in dataset.stretches:
         error = np.zeros_like(stretch.state.position)
-        error[:, joint] = zone.error(operating_point.torque(stretch.state)[:, joint])
+        error[:, zone.joint] = zone.error(operating_point.torque(stretch.state)[:, zone.joint])
         added[stretch.rows] = stretch.filtered(error.T).T
     return added

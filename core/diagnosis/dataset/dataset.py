@@ -6,9 +6,9 @@ at most. Rows within the filter's main lobe of a velocity reversal are marked: t
 velocity is not the direction of friction. Of long logs evenly spread stretches are used.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 from scipy.sparse import block_diag, csr_array
@@ -16,19 +16,18 @@ from scipy.sparse import block_diag, csr_array
 from ...arrays import BlockKey, Indices, JointMask, JointSeries, Samples, UsableRows
 from ...dynamics.model import DynamicModel
 from ...dynamics.term import Term
-from ...errors import Evidence, ExcitationError
-from ...log.gaps import naming_gaps
+from ...errors import ExcitationError
 from ...log.model import JointLog
 from ...regressor.columns import ColumnPlan
 from ...robot.joint_units import prismatic_joints
 from ...robot.model import RobotModel
 from ...signals.condition import Motion, condition
+from ...signals.dead_zone import DeadZone, unread, with_restored_torque
 from ...signals.recipe import FilterOptions, choose_recipe
 from ...signals.state import MotionState, concatenate_states
 from ..thresholds.dataset import BAND, ROWS
-from ..thresholds.residual import PREDICTION
 from .columns import term_columns
-from .segments import DatasetSegment, later_torques, segments_of, thinning
+from .segments import DatasetSegment, later_torques, segments_of, thinning, torque_signs
 from .stretch import Stretch
 
 
@@ -115,6 +114,7 @@ def build_dataset(
     held_out: frozenset[BlockKey],
     blocks: int,
     width: float = BAND.over_motion,
+    zones: Sequence[DeadZone] = (),
 ) -> Dataset:
     """Condition the logs for a diagnosis.
 
@@ -126,18 +126,25 @@ def build_dataset(
         Number of blocks each log is divided into.
     width
         Ratio of the data set's band to the motion's.
+    zones
+        Dead zones of torque channels, one of a joint: what they take is added, and rows within are not used.
 
     Raises
     ------
     ExcitationError
         If no row is left.
     """
+    restored = [with_restored_torque(log, model.robot, zones) for log in logs]
     motions = tuple(
         condition(log, model.robot, _options(log, width, model.robot), blocks=blocks, number=number)
-        for number, log in enumerate(logs)
+        for number, log in enumerate(restored)
     )
     parts = _segments(motions, model.robot, [log.duration for log in logs])
     series = _concatenate_series(parts)
+    # A filter's main lobe is a period of its cut-off wide.
+    lobes = [1.0 / motion.recipe.cutoff_hz for motion in motions]
+    read = ~np.vstack([unread(logs[part.log], zones, part.time, lobes[part.log]) for part in parts])
+    series |= {name: series[name] & read for name in ("usable", "clear")}
     keys = {log * blocks + block for log, block in held_out}
     return Dataset(
         robot=model.robot,
@@ -152,58 +159,6 @@ def build_dataset(
         width=width,
         position_torque=np.zeros_like(series["torque"]),
     )
-
-
-def refuse_too_little(dataset: Dataset, plan: ColumnPlan) -> None:
-    """Refuse a data set in which no joint has rows enough to fit its columns.
-
-    Raises
-    ------
-    ExcitationError
-        If no joint has.
-    """
-    rows = (dataset.clear & ~dataset.held_out[:, None]).sum(axis=0)
-    needed = np.array([ROWS.per_column * len(columns) for columns in plan.columns_of])
-    if (rows < needed).all():
-        logs = [motion.log for motion in dataset.motions]
-        with naming_gaps(logs):
-            raise _too_little({"instants": rows.tolist(), "needed": needed.tolist()}, logs)
-
-
-def _too_little(counts: Evidence, logs: Sequence[JointLog]) -> ExcitationError:
-    """Say why there are so few instants, as far as it is not for missing rows."""
-    kinds = {defect.kind: defect for log in logs for defect in log.defects}
-    if "jitter" in kinds:
-        return ExcitationError(
-            "the stamps scatter so much that speeds are mostly noise: no joint has enough instants that "
-            "are surely away from reversals",
-            evidence={**counts, "stamps": kinds["jitter"].statement},
-            remedy="stamp every sample when it is taken, or number the samples of an even clock and "
-            "divide by its rate",
-        )
-    return ExcitationError(
-        "the log holds too little motion for a diagnosis: no joint has enough instants away from "
-        "standstill and reversals",
-        evidence=counts,
-        remedy="record at least ten seconds in which every joint moves, at 100 Hz or more",
-    )
-
-
-def refuse_unjudged(dataset: Dataset, wide: Dataset) -> None:
-    """Refuse an unusually narrow band in which a joint's residual cannot be judged, as it can in a wide one.
-
-    Raises
-    ------
-    ExcitationError
-        If there is such a joint.
-    """
-    rows, enough = dataset.clear.sum(axis=0), wide.clear.sum(axis=0) >= PREDICTION.least_rows
-    if dataset.width < BAND.narrowest and (rows[enough] < PREDICTION.least_rows).any():
-        raise ExcitationError(
-            "so narrow a band leaves too few instants to judge what a model leaves",
-            evidence={"instants": rows.tolist(), "needed": PREDICTION.least_rows},
-            remedy="record more motion, or positions with less noise",
-        )
 
 
 def identification_width(dataset: Dataset) -> float:
@@ -221,8 +176,17 @@ def drowning_width(dataset: Dataset) -> float:
 
 def later_torque(dataset: Dataset, seconds: float) -> JointSeries:
     """Give a data set's torque, taken so many seconds later: rows x joints, N m or N."""
+    return _of_motions(dataset, partial(later_torques, seconds=seconds))
+
+
+def torque_sign(dataset: Dataset) -> JointSeries:
+    """Give the sign of a data set's torque, filtered as the torque is: rows x joints."""
+    return _of_motions(dataset, torque_signs)
+
+
+def _of_motions(dataset: Dataset, series: Callable[[Motion, float], list[JointSeries]]) -> JointSeries:
     share = _share([motion.log.duration for motion in dataset.motions])
-    return np.vstack([part for motion in dataset.motions for part in later_torques(motion, share, seconds)])
+    return np.vstack([part for motion in dataset.motions for part in series(motion, share)])
 
 
 def _share(seconds: list[float]) -> float:

@@ -4,13 +4,14 @@ States are decimated as far as the parallel filter's bandwidth allows. Rows near
 marked: there the sign of a measured velocity is not the direction of friction.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import csr_array
 
 from ...arrays import Indices, JointMask, JointSeries
+from ...log.model import JointLog
 from ...log.shifted import with_later_effort
 from ...robot.model import RobotModel
 from ...signals.condition import Motion
@@ -46,10 +47,22 @@ def segments_of(number: int, motion: Motion, robot: RobotModel, share: float) ->
 def later_torques(motion: Motion, share: float, seconds: float) -> list[JointSeries]:
     """Give the torques of `segments_of`, each row's taken so many seconds later."""
     log = with_later_effort(motion.log, seconds)
+    return _of_torques(motion, log, share, lambda torque: torque)
+
+
+def torque_signs(motion: Motion, share: float) -> list[JointSeries]:
+    """Give the signs of the torques of `segments_of`, filtered as these are."""
+    return _of_torques(motion, motion.log, share, np.sign)
+
+
+def _of_torques(
+    motion: Motion, log: JointLog, share: float, change: Callable[[JointSeries], JointSeries]
+) -> list[JointSeries]:
+    """Give what a change makes of a log's torques at the rows of a motion's `segments_of`."""
     out = []
     for segment, kept, _ in _spans(motion, share):
-        torque, first = replace(segment, log=log).effort(*kept)
-        series = np.ascontiguousarray((torque * motion.effort_scale).T)
+        effort, first = replace(segment, log=log).effort(*kept)
+        series = np.ascontiguousarray(change(effort * motion.effort_scale).T)
         out.append(segment.parallel.apply(series, first, kept[1] - kept[0]).T)
     return out
 

@@ -5,7 +5,8 @@ import pytest
 
 from tests.core.diagnosis.scenes import Scene, fitter_of, look_at_arm, measured_arm
 from tests.core.estimate.worlds import planar_robot
-from veritorque.core.diagnosis.dataset.dataset import Dataset, build_dataset, refuse_too_little
+from veritorque.core.diagnosis.dataset.dataset import Dataset, build_dataset
+from veritorque.core.diagnosis.dataset.refusals import refuse_too_little
 from veritorque.core.diagnosis.search.residuals import residual
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.errors import ExcitationError
