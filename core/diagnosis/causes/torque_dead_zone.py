@@ -74,7 +74,8 @@ def _zone(dataset: Dataset, number: int, joint: int) -> DeadZone | None:
     flanks = np.abs(
         effort[np.concatenate([np.maximum(runs[:, 0] - 1, 0), np.minimum(runs[:, 1], len(effort) - 1)])]
     )
-    small = np.median(flanks) < SAMPLE_CHECKS.dead_flank * np.median(sizes)
+    beside = float(np.quantile(flanks, SAMPLE_CHECKS.dead_flanks))
+    small = beside < SAMPLE_CHECKS.dead_flank * np.median(sizes)
     p_value = float(poisson.sf(zeros - 1, most))
     if zeros < SAMPLE_CHECKS.dead_over_others * most or not small or p_value > SAMPLE_CHECKS.level:
         return None

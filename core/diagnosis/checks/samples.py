@@ -13,7 +13,7 @@ from ...signals.dead_zone import DeadZone
 from ..bandwidth import Fitted, limit_bandwidth
 from ..causes.external_contact import ExternalContact
 from ..causes.protocol import Cause
-from ..causes.registry import SAMPLE_CHECKS
+from ..causes.registry import SAMPLE_CHECKS as CHECKS
 from ..causes.sample_check import SampleCheck, SampleFinding
 from ..causes.torque_dead_zone import TorqueDeadZone, dead_zones, zone_findings
 from ..dataset.dataset import Dataset, build_dataset, torque_sign
@@ -23,6 +23,7 @@ from ..regression.gls import fit
 from ..regression.rows import append_columns
 from ..result import Finding
 from ..search.fitter import HypothesisFitter, hypothesis_fitter
+from ..thresholds.dataset import SAMPLE_CHECKS
 from .clipped_channel import ClippedChannel, clipped_channels
 from .contact_at_rest import contacts_at_rest
 from .findings import sample_finding
@@ -56,7 +57,7 @@ def check_samples(problem: DiagnosisProblem) -> tuple[DiagnosisProblem, list[Fin
 def _faults(wide: Fitted, zones: tuple[DeadZone, ...]) -> Iterator[Finding]:
     """State what is wrong with the samples: dead zones that are known, and what else is found."""
     dataset, operating_point, _ = wide
-    others = (check for check in SAMPLE_CHECKS if check.id != TorqueDeadZone.id)
+    others = (check for check in CHECKS if check.id != TorqueDeadZone.id)
     found: list[tuple[SampleCheck | Cause, tuple[SampleFinding, ...]]] = [
         *((check, check.examine(dataset, operating_point)) for check in others),
         (TorqueDeadZone(), zone_findings(dataset, operating_point, zones)),
@@ -81,7 +82,7 @@ def dataset_of(problem: DiagnosisProblem, width: float) -> Dataset:
 def _refined_zones(zones: tuple[DeadZone, ...], limited: Limited) -> Iterator[DeadZone]:
     """Fit to the model by how much the torques outside of dead zones are too small, beside what was added.
 
-    What one lacks has the sign of the torque. A width that the model has below zero is none.
+    What one lacks has the sign of the torque. Where torques lack nothing, zeros are those of lost samples.
     """
     _, dataset, (fitter, _) = limited
     shrinking, signs = [zone for zone in zones if zone.shrinks], torque_sign(dataset)
@@ -90,9 +91,19 @@ def _refined_zones(zones: tuple[DeadZone, ...], limited: Limited) -> Iterator[De
     first = len(fitted.values) - len(shrinking)
     deviations = np.sqrt(np.diag(fitted.covariance)[first:])
     for zone, more, deviation in zip(shrinking, fitted.values[first:], deviations, strict=True):
-        half = zone.half - float(more)
-        yield replace(zone, half=half, deviation=float(deviation)) if half > 0.0 else zone
+        refined = _refined(zone, zone.half - float(more), float(deviation))
+        if refined is not None:
+            yield refined
     yield from (zone for zone in zones if not zone.shrinks)
+
+
+def _refined(zone: DeadZone, half: float, deviation: float) -> DeadZone | None:
+    """Weigh the width that zeros show with the model's, N m or N; None where the model clearly has none."""
+    if deviation < zone.deviation and half < SAMPLE_CHECKS.dead_clearness * deviation:
+        return None
+    counted, fitted = zone.deviation**-2, deviation**-2
+    mean = (counted * zone.half + fitted * half) / (counted + fitted)
+    return replace(zone, half=mean, deviation=(counted + fitted) ** -0.5)
 
 
 def _limited(problem: DiagnosisProblem) -> Limited:

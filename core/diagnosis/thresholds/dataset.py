@@ -108,7 +108,7 @@ class SampleChecks:
     """Share of some joint's residual that jitter has to account for: rounding scatters, too."""
     jitter_block: int = 32
     """Rows whose products are summed before their scatter is taken."""
-    dead_passages: int = 5
+    dead_passages: int = 3
     """Stretches of exact zeros while a joint moves from which a dead zone is looked for."""
     dead_nearby: float = 1.0
     """Nonzero torques per zero that have to be there: fewer say nothing of how dense they are."""
@@ -116,9 +116,13 @@ class SampleChecks:
     """Ratio of zeros to the most frequent other value among as many torques next to zero. A channel that cuts
     off what is below its step has twice as many zeros."""
     dead_flank: float = 0.5
-    """Share of the median torque that the median torque beside a stretch of zeros has to be below."""
+    """Share of the median torque that torques beside a stretch of zeros have to be below."""
+    dead_flanks: float = 0.9
+    """Quantile of the torques beside zeros that is compared with it: those of lost samples are anywhere."""
     dead_gap: float = 0.5
     """Share of the width without values beside zero from which larger torques are taken to be unchanged."""
+    dead_clearness: float = 3.0
+    """Deviations from zero from which on torques outside of a dead zone are too small by the model."""
     rounding_share: float = 0.6
     """Share of a joint's residual that rounding has to account for. Good encoders account for a half."""
     rounding_of_torque: float = 0.006

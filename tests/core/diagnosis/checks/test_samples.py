@@ -46,3 +46,23 @@ def test_the_model_tells_the_width_better_than_the_zeros_do():
     assert width.value == pytest.approx(asked.zones[0].half)
     assert width.standard_deviation < 0.3 * counted.deviation
     assert abs(width.value - DEAD) < 3.0 * width.standard_deviation
+
+
+def lost_at_small_torques() -> JointLog:
+    """Lose eleven samples at each of six passages through zero, and none at the others."""
+
+    def lost(torque: np.ndarray) -> np.ndarray:
+        passages = np.flatnonzero(np.diff(np.sign(np.convolve(torque, np.ones(9), "same"))))[2:-2]
+        chosen = passages[:: max(len(passages) // 6, 1)][:6]
+        near = np.abs(np.arange(len(torque))[:, None] - chosen).min(axis=1) <= 5
+        return np.where(near, 0.0, torque)
+
+    return with_torque(lost)
+
+
+def test_zeros_beside_which_the_model_misses_no_torque_are_no_dead_zone():
+    log = lost_at_small_torques()
+    assert [zone.shrinks for zone in dead_zones(looked_at(log))] == [True]
+    asked, faults, _ = check_samples(problem(log))
+    assert asked.zones == ()
+    assert faults == []
