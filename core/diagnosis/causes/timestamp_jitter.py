@@ -11,10 +11,10 @@ from itertools import chain
 
 import numpy as np
 from scipy.signal import oaconvolve
-from scipy.stats import binom, norm
 
 from ...arrays import JointSeries, Vector
 from ...dynamics.prediction import Prediction
+from ...numerics.distributions import binomial_at_least, normal_tail
 from ...signals.derivative import differentiate_throughout
 from ...signals.resample import uniform_positions
 from ...signals.segment import Segment
@@ -62,7 +62,7 @@ class TimestampJitter(SampleCheck):
 def _by_chance(statistic: float, products: Vector) -> float:
     """Give the p-value of the sum of products, or of the count of positive ones: few may dominate the sum."""
     positive, count = np.count_nonzero(products > 0.0), np.count_nonzero(products)
-    return float(min(2.0 * min(norm.sf(statistic), binom.sf(positive - 1, count, 0.5)), 1.0))
+    return min(2.0 * min(normal_tail(statistic), binomial_at_least(positive, count, 0.5)), 1.0)
 
 
 def _statement(found: Quantity) -> str:

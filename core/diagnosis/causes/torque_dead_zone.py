@@ -9,10 +9,10 @@ dense within the zone as beside it: as many nonzero ones as there are zeros fill
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import poisson
 
 from ...arrays import JointSeries, Samples
 from ...dynamics.prediction import Prediction
+from ...numerics.distributions import poisson_at_least
 from ...numerics.marked_runs import marked_runs
 from ...robot.joint_units import joint_unit
 from ...signals.condition import Motion
@@ -84,7 +84,7 @@ def _zone(dataset: Dataset, number: int, joint: int) -> _Zone | None:
         effort[np.concatenate([np.maximum(runs[:, 0] - 1, 0), np.minimum(runs[:, 1], len(effort) - 1)])]
     )
     small = np.median(flanks) < SAMPLE_CHECKS.dead_flank * np.median(sizes)
-    p_value = float(poisson.sf(zeros - 1, most))
+    p_value = poisson_at_least(zeros, most)
     if zeros < SAMPLE_CHECKS.dead_over_others * most or not small or p_value > SAMPLE_CHECKS.level:
         return None
     gap, width = float(sizes[0]), float(sizes[zeros - 1] - sizes[0])
