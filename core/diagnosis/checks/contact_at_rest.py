@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays import Indices, JointSeries, JointVector, SampleMask
-from ...dynamics.jacobian import Jacobian
+from ...arrays import Indices, Jacobian, JointSeries, JointVector, SampleMask
 from ...dynamics.prediction import Prediction
 from ...dynamics.terms.coulomb import Coulomb
 from ...dynamics.terms.external_contact import contact_jacobian
