@@ -43,7 +43,16 @@ class Identify(JobKind["IdentifyOptions"]):
         summary="Identify the arm from the first example log",
         request={"kind": "identify", "robot": "yumi-left", "logs": [EXAMPLE_LOG_ID], "options": {}},
     )
-    preload: ClassVar[tuple[str, ...]] = ("veritorque.core.study",)
+    preload: ClassVar[tuple[str, ...]] = (
+        "veritorque.core.study",
+        "veritorque.core.conflicts.doubted",
+        "veritorque.core.document.model.reference",
+        "veritorque.core.numerics.decays",
+        "veritorque.core.numerics.elementwise",
+        "veritorque.core.regressor.kernel",
+        "scipy.interpolate",
+        "scipy.signal",
+    )
     artifacts = FORMATS
     has_report = True
 
