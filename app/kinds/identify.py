@@ -4,15 +4,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, cast
 
-from pydantic import BaseModel
-
 from ...core.export.formats import FORMATS
 from ...core.report.page.running import Origin
-from ..schemas.results import ResultDocument
 from ..store.records import Document
 from .kind import Inputs, JobKind, PlannedJob, Progress, Words
 
 if TYPE_CHECKING:
+    from pydantic import BaseModel
     from rich.console import Console
 
     from ...core.identification.admission import KnownLog
@@ -27,7 +25,6 @@ class Identify(JobKind["IdentifyOptions"]):
     """Identify a robot from its logs."""
 
     name = "identify"
-    result: ClassVar[type[BaseModel]] = ResultDocument
     words = Words(
         title="Identification",
         hint=(
@@ -55,6 +52,13 @@ class Identify(JobKind["IdentifyOptions"]):
     )
     artifacts = FORMATS
     has_report = True
+
+    @property
+    def result(self) -> "type[BaseModel]":
+        """Give the model of its result document."""
+        from ..schemas.results import ResultDocument
+
+        return ResultDocument
 
     def read_options(self, options: Document) -> "IdentifyOptions":
         """Read the options of an identification."""
