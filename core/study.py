@@ -1,36 +1,27 @@
 """Run the whole computation, on one page: from logs to a consistent robot, and how well it is known.
 
-This is the only module that meets every chapter; each step takes what the step before gave.
+This is the only module that meets every chapter; each step takes what the step before gave. What only a
+diagnosis needs, which is half of all modules, is loaded by the first one.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from .conflicts.check import Conflicts, check
 from .conflicts.doubt import is_doubtful
-from .diagnosis.checks.reservations import with_reservations
-from .diagnosis.diagnose import diagnose as find_causes
-from .diagnosis.problem import DiagnosisProblem
-from .diagnosis.result import Diagnosis
 from .document.conflicts import because_of, conflict_rows, with_conflicts
-from .document.diagnosis import diagnosis_document
 from .document.identification import identification_document
-from .document.model.reference import reference_from_document
 from .document.version import product_version
 from .dynamics.model import standard_model
 from .errors import OptionError, SolverError
 from .estimate.problem import Problem
 from .estimate.smoothing import with_smoothed_friction
-from .extension.cure import corrections
-from .extension.extend import extend, verified
-from .extension.measure import measure_gains
-from .extension.reserved import reserved
-from .extension.result import Extension
 from .identification.admission import admit, known_log
 from .identification.doubts import contradictions
 from .identification.flexible_band import check_moved
-from .identification.identify import Fit, Progress, fit, judge, no_progress, refitted
+from .identification.identify import Fit, Progress, fit, judge, no_progress, refitted, scaled_progress
 from .identification.options import REPORT, IdentifyOptions, parse_diagnose_options, parse_options
 from .identification.reference import PRIOR, Reference, reference_from_prior
 from .identification.reference_score import score_reference
@@ -43,6 +34,10 @@ from .reduction.base import base_model
 from .report.traces.writing import write_traces
 from .robot.model import RobotModel
 from .signals.several import condition_all
+
+if TYPE_CHECKING:
+    from .diagnosis.result import Diagnosis
+    from .extension.result import Extension
 
 __all__ = ["IdentifyRequest", "identify", "identify_in_full", "parse_options"]
 
@@ -197,6 +192,8 @@ def _read_reference(task: _Task) -> Reference | None:
             else (f"the result of the reference {name} is not at hand", "name a finished job")
         )
         raise OptionError(cause, evidence={"reference": name, "given": decided}, remedy=remedy)
+    from .document.model.reference import reference_from_document
+
     return reference_from_document(task.asked.reference, task.asked.robot, name)
 
 
@@ -208,6 +205,8 @@ def diagnose(request: IdentifyRequest, progress: Progress | None = None) -> dict
     VeritorqueError
         Whatever stands in the way, with cause, evidence and remedy.
     """
+    from .document.diagnosis import diagnosis_document
+
     task = _Task(request, parse_diagnose_options(request.options))
     found, conflicts = _diagnose(task, progress or no_progress)
     write_traces(task.asked.traces, found.before, found)
@@ -215,22 +214,22 @@ def diagnose(request: IdentifyRequest, progress: Progress | None = None) -> dict
     return with_conflicts(document, conflict_rows(conflicts, request.robot, request.logs))
 
 
-def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None) -> Extension:
+def diagnose_in_full(request: IdentifyRequest, progress: Progress | None = None) -> "Extension":
     """Identify, diagnose, extend and identify again; give every chapter's result."""
     return _diagnose(_Task(request, parse_diagnose_options(request.options)), progress or no_progress)[0]
 
 
 @on_one_thread()
-def _diagnose(task: _Task, tell: Progress) -> tuple[Extension, Conflicts]:
+def _diagnose(task: _Task, tell: Progress) -> "tuple[Extension, Conflicts]":
     reference = _read_reference(task)
-    first = _scale_progress(tell, 0.0, 0.3)
+    first = scaled_progress(tell, 0.0, 0.3)
     settled = _settle(task, first, reference)
     if task.options.reference == PRIOR:
         reference = reference_from_prior(settled.fit.problem.base)
-    before, found = _judge_and_search(settled, reference, first, _scale_progress(tell, 0.3, 0.5))
+    before, found = _judge_and_search(settled, reference, first, scaled_progress(tell, 0.3, 0.5))
     if found.verdict != "nothing_found" and not settled.conflicts.searched and reference is None:
         # What a wrong set-up leaves, as little as it may be on an arm of two joints, resembles a cause.
-        still = _scale_progress(tell, 0.78, 0.0)
+        still = scaled_progress(tell, 0.78, 0.0)
         conflicts, corrected = _corrected(task, settled.fit.problem, still, doubted=True)
         settled = corrected or replace(settled, conflicts=conflicts)
         if corrected is not None:
@@ -240,8 +239,11 @@ def _diagnose(task: _Task, tell: Progress) -> tuple[Extension, Conflicts]:
 
 def _judge_and_search(
     settled: _Settled, reference: Reference | None, first: Progress, then: Progress
-) -> tuple[Identification, Diagnosis]:
+) -> "tuple[Identification, Diagnosis]":
     """Judge a fit, and find the causes of what it leaves."""
+    from .diagnosis.diagnose import diagnose as find_causes
+    from .diagnosis.problem import DiagnosisProblem
+
     asked, options, problem = settled.task.asked, settled.task.options, settled.fit.problem
     before = judge(asked.logs, settled.fit, first, asked.mapper)
     question = DiagnosisProblem(
@@ -251,35 +253,34 @@ def _judge_and_search(
 
 
 def _explain(
-    settled: _Settled, before: Identification, found: Diagnosis, reference: Reference | None, tell: Progress
-) -> Extension:
+    settled: _Settled, before: Identification, found: "Diagnosis", reference: Reference | None, tell: Progress
+) -> "Extension":
     """Extend the model by the causes that were found, and measure what that gains."""
+    from .diagnosis.checks.reservations import with_reservations
+    from .extension import cure, extend, measure, reserved, result
+
     task, problem, options = settled.task, settled.fit.problem, settled.task.options
-    last = _scale_progress(tell, 0.8, 0.15)
+    last = scaled_progress(tell, 0.8, 0.15)
     conflicts, doubted = settled.conflicts, bool(contradictions(before))
     rescaled, promising = conflicts.estimates_a_factor, conflicts.promising
     found = with_reservations(
         found, open_conflict=conflicts.is_open, doubted=doubted, rescaled=rescaled, promising=promising
     )
     plain = problem if reference is None else replace(problem, prior=reference.prior)
-    found, proof = verified(found, options, plain, lambda: tell("verify", 0.78))
+    found, proof = extend.verified(found, options, plain, lambda: tell("verify", 0.78))
     parts = before.observation.parts(problem.held_out)
     as_it_is = None if reference is None else score_reference(reference, before, parts)
-    without = Extension(before, found, None, (), None, "no finding entered the model", as_it_is)
-    if not corrections(found):
-        return reserved(without)
+    without = result.Extension(before, found, None, (), None, "no finding entered the model", as_it_is)
+    if not cure.corrections(found):
+        return reserved.reserved(without)
     try:
-        extended = proof or fit(extend(found, plain), options, last)
+        extended = proof or fit(extend.extend(found, plain), options, last)
         after = judge(task.asked.logs, extended, last, task.asked.mapper)
     except SolverError as error:  # what was found stands, whether or not the correction can be computed
         note = f"the extended model could not be identified: {error.cause}"
-        return reserved(replace(without, motion_note=note))
+        return reserved.reserved(replace(without, motion_note=note))
     tell("simulate", 0.95)
-    return reserved(measure_gains(without, after, problem))
-
-
-def _scale_progress(tell: Progress, begin: float, share: float) -> Progress:
-    return lambda stage, done: tell(stage, begin + share * done)
+    return reserved.reserved(measure.measure_gains(without, after, problem))
 
 
 def _prepare(task: _Task, tell: Progress, reference: Reference | None = None) -> Problem:

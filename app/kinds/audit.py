@@ -5,12 +5,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...core.errors import OptionError
 from ...core.export.formats import Format
-from ..schemas.audit import AuditDocument
 from ..store.records import Document
 from .identify import EXAMPLE_LOG_ID, Identify
 from .kind import Alarm, Inputs, Progress, Words
 
 if TYPE_CHECKING:
+    from pydantic import BaseModel
     from rich.console import Console
 
     from ...core.identification.options import IdentifyOptions
@@ -25,7 +25,6 @@ class Audit(Identify):
     """Audit the bodies of a robot's description against logs."""
 
     name = "audit"
-    result = AuditDocument
     words = Words(
         title="Audit of the description",
         hint=(
@@ -46,6 +45,13 @@ class Audit(Identify):
     preload = ("veritorque.core.robot_audit",)
     artifacts: ClassVar[Mapping[str, Format]] = {}
     has_report = False
+
+    @property
+    def result(self) -> "type[BaseModel]":
+        """Give the model of its result document."""
+        from ..schemas.audit import AuditDocument
+
+        return AuditDocument
 
     def read_options(self, options: Document) -> "IdentifyOptions":
         """Read the options of an identification, and the mass by the data sheet."""

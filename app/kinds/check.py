@@ -4,12 +4,12 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...core.export.formats import Format
-from ..schemas.setup_check import CheckDocument
 from ..store.records import Document
 from .identify import EXAMPLE_LOG_ID, Identify, request_of
 from .kind import Alarm, Inputs, Progress, Words
 
 if TYPE_CHECKING:
+    from pydantic import BaseModel
     from rich.console import Console
 
 
@@ -17,7 +17,6 @@ class Check(Identify):
     """Check a robot and its logs before anything is identified."""
 
     name = "check"
-    result = CheckDocument
     words = Words(
         title="Set-up check",
         hint=(
@@ -40,6 +39,13 @@ class Check(Identify):
     preload = ("veritorque.core.setup_check",)
     artifacts: ClassVar[Mapping[str, Format]] = {}
     has_report = False
+
+    @property
+    def result(self) -> "type[BaseModel]":
+        """Give the model of its result document."""
+        from ..schemas.setup_check import CheckDocument
+
+        return CheckDocument
 
     def compute(self, inputs: Inputs, progress: Progress) -> Document:
         """Check the set-up."""

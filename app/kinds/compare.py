@@ -5,12 +5,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...core.export.comparison import FORMATS
 from ...core.export.formats import Format
-from ..schemas.comparison import ComparisonDocument
 from ..store.records import Document
 from .identify import EXAMPLE_LOG_ID, Identify, request_of
 from .kind import Inputs, Progress, Words
 
 if TYPE_CHECKING:
+    from pydantic import BaseModel
     from rich.console import Console
 
     from ...core.identification.options import IdentifyOptions
@@ -21,7 +21,6 @@ class Compare(Identify):
 
     name = "compare"
     compares = True
-    result = ComparisonDocument
     words = Words(
         title="Comparison of estimators",
         hint=(
@@ -44,6 +43,13 @@ class Compare(Identify):
     preload = ("veritorque.core.estimator_comparison",)
     artifacts: ClassVar[Mapping[str, Format]] = FORMATS
     has_report = False
+
+    @property
+    def result(self) -> "type[BaseModel]":
+        """Give the model of its result document."""
+        from ..schemas.comparison import ComparisonDocument
+
+        return ComparisonDocument
 
     def read_options(self, options: Document) -> "IdentifyOptions":
         """Read the options of every estimator; gives those by which all of them begin."""

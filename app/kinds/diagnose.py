@@ -49,7 +49,16 @@ class Diagnose(Identify):
             lambda document: document["diagnosis"]["verdict"] != "nothing_found",
         ),
     )
-    preload = ("veritorque.core.study", "veritorque.core.numerics.boosted_trees")
+    preload = (
+        *Identify.preload,
+        "veritorque.core.diagnosis.diagnose",
+        "veritorque.core.document.diagnosis",
+        "veritorque.core.extension.extend",
+        "veritorque.core.extension.measure",
+        "veritorque.core.extension.reserved",
+        "veritorque.core.numerics.boosted_trees",
+        "veritorque.core.numerics.power_density",
+    )
 
     def read_options(self, options: Document) -> "IdentifyOptions":
         """Read the options of a diagnosis."""

@@ -4,15 +4,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, cast
 
-from pydantic import BaseModel
-
 from ...core.export.formats import FORMATS
 from ...core.report.page.running import Origin
-from ..schemas.results import ResultDocument
 from ..store.records import Document
 from .kind import Inputs, JobKind, PlannedJob, Progress, Words
 
 if TYPE_CHECKING:
+    from pydantic import BaseModel
     from rich.console import Console
 
     from ...core.identification.admission import KnownLog
@@ -27,7 +25,6 @@ class Identify(JobKind["IdentifyOptions"]):
     """Identify a robot from its logs."""
 
     name = "identify"
-    result: ClassVar[type[BaseModel]] = ResultDocument
     words = Words(
         title="Identification",
         hint=(
@@ -43,9 +40,25 @@ class Identify(JobKind["IdentifyOptions"]):
         summary="Identify the arm from the first example log",
         request={"kind": "identify", "robot": "yumi-left", "logs": [EXAMPLE_LOG_ID], "options": {}},
     )
-    preload: ClassVar[tuple[str, ...]] = ("veritorque.core.study",)
+    preload: ClassVar[tuple[str, ...]] = (
+        "veritorque.core.study",
+        "veritorque.core.conflicts.doubted",
+        "veritorque.core.document.model.reference",
+        "veritorque.core.numerics.decays",
+        "veritorque.core.numerics.elementwise",
+        "veritorque.core.regressor.kernel",
+        "scipy.interpolate",
+        "scipy.signal",
+    )
     artifacts = FORMATS
     has_report = True
+
+    @property
+    def result(self) -> "type[BaseModel]":
+        """Give the model of its result document."""
+        from ..schemas.results import ResultDocument
+
+        return ResultDocument
 
     def read_options(self, options: Document) -> "IdentifyOptions":
         """Read the options of an identification."""

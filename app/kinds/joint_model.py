@@ -4,12 +4,12 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 from ...core.export.formats import Format
-from ..schemas.joint_model import JointModelDocument
 from ..store.records import Document
 from .identify import EXAMPLE_LOG_ID
 from .kind import Inputs, JobKind, PlannedJob, Progress, Words
 
 if TYPE_CHECKING:
+    from pydantic import BaseModel
     from rich.console import Console
 
     from ...core.joint_model.options import JointOptions
@@ -20,7 +20,6 @@ class JointModel(JobKind["JointOptions"]):
 
     name = "joint_model"
     asks_joint = True
-    result = JointModelDocument
     words = Words(
         title="Model of one joint",
         hint=(
@@ -42,6 +41,13 @@ class JointModel(JobKind["JointOptions"]):
     )
     preload = ("veritorque.core.joint_identification",)
     artifacts: ClassVar[Mapping[str, Format]] = {}
+
+    @property
+    def result(self) -> "type[BaseModel]":
+        """Give the model of its result document."""
+        from ..schemas.joint_model import JointModelDocument
+
+        return JointModelDocument
 
     def read_options(self, options: Document) -> "JointOptions":
         """Read the options."""

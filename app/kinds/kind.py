@@ -11,14 +11,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, cast
 
-from pydantic import BaseModel
-
 from ...core.export.formats import Format
 from ...core.report.page.running import Origin
 from ..problems import Problem
 from ..store.records import Document
 
 if TYPE_CHECKING:
+    from pydantic import BaseModel
     from rich.console import Console
 
     from ...core.dynamics.model import DynamicModel
@@ -106,8 +105,6 @@ class JobKind(ABC, Generic[Options]):
     """Whether it fits several estimators, which the option `compare` names, or one."""
     asks_joint: ClassVar[bool] = False
     """Whether it is about one joint, which the option `joint` names; it then has options of its own."""
-    result: ClassVar[type[BaseModel]]
-    """Model of its result document."""
     words: ClassVar[Words]
     """What the contract, the terminal and the pages say of it."""
     preload: ClassVar[tuple[str, ...]] = ()
@@ -116,6 +113,11 @@ class JobKind(ABC, Generic[Options]):
     """The files that its result is also offered as."""
     has_report: ClassVar[bool] = False
     """Whether `report` writes one."""
+
+    @property
+    @abstractmethod
+    def result(self) -> "type[BaseModel]":
+        """Give the model of its result document, which is loaded when it is served or described."""
 
     @abstractmethod
     def read_options(self, options: Document) -> Options:

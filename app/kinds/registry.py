@@ -20,8 +20,11 @@ from .kind import JobKind
 
 _LISTED: tuple[JobKind[Any], ...] = (Identify(), Diagnose(), Check(), Audit(), Compare(), JointModel())
 KINDS: Mapping[str, JobKind[Any]] = {kind.name: kind for kind in _LISTED}
-RESULT_DOCUMENT: Any = reduce(or_, (kind.result for kind in KINDS.values()))
-"""The model of a result document of any kind."""
+
+
+def result_document() -> Any:  # noqa: ANN401  # a union, which has no type of its own
+    """Give the model of a result document of any kind."""
+    return reduce(or_, (kind.result for kind in KINDS.values()))
 
 
 def kind_of(name: str) -> JobKind[Any]:

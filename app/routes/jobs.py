@@ -15,7 +15,7 @@ from ..http.pagination import CursorOf, Limit, before, following
 from ..http.routing import chapter
 from ..jobs.queue import Submission
 from ..kinds.kind import JobKind
-from ..kinds.registry import KINDS, RESULT_DOCUMENT, kind_of
+from ..kinds.registry import KINDS, kind_of, result_document
 from ..problems import Problem
 from ..schemas.jobs import Job, JobList, JobRequest
 from ..services.export_files import ARTIFACTS, CONTENT, TRACES_FILE, TRACES_TYPE
@@ -95,7 +95,7 @@ async def read_job(context: ContextOf, job_id: str, if_none_match: IfNoneMatch =
 
 @ROUTER.get(
     "/{job_id}/results",
-    response_model=RESULT_DOCUMENT,
+    response_model=result_document(),
     summary="Read the result",
     responses=problems(404, 406, 409)
     | {

@@ -4,7 +4,6 @@ Everything here may take a while and is called from worker threads, never on the
 """
 
 from dataclasses import replace
-from pathlib import PurePath
 
 from ...core.log.formats.content import recognise
 from ...core.robot.model import RobotModel
@@ -16,9 +15,8 @@ from ..problems import Problem
 from ..store.blobs.incoming import CHUNK_BYTES, Incoming
 from ..store.records import Document, LogRecord, RobotRecord
 from ..store.store import TenantStore
+from .log_names import log_name
 from .robot_descriptions import read_description, read_urdf
-
-LONGEST_NAME = 200
 
 
 class Catalogue:
@@ -192,18 +190,6 @@ class Catalogue:
             name=robot.name, joints=len(robot.joints), description=description, suspicions=suspicions
         )
         return replace(kept, suspicions=suspicions)
-
-
-def log_name(given: str) -> str:
-    r"""Make a log's name of what a client calls it: the last part of a path, printable and not too long.
-
-    Examples
-    --------
-    >>> log_name("C:\\runs\\run 1.csv"), log_name("")
-    ('run 1.csv', 'log')
-    """
-    last = PurePath(given.replace("\\", "/")).name
-    return "".join(letter for letter in last if letter.isprintable())[:LONGEST_NAME] or "log"
 
 
 def _missing(what: str, identity: str, *, named_in_body: bool) -> Problem:

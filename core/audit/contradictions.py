@@ -12,12 +12,12 @@ from functools import cache, cached_property
 
 import numpy as np
 from scipy.linalg import null_space, solve_triangular
-from scipy.stats import chi2
 
 from ..arrays import EquationRows, LinkTable, Matrix, Vector
 from ..estimate.constraints import link_columns
 from ..identification.reference import bodies_spread, with_least_deviation
 from ..identification.result import Identification
+from ..numerics.distributions import chi2_critical, chi2_tail
 from ..robot.inertia import from_mass_properties, mass_properties
 from .entries import SIZES, Bodies, Entry
 from .thresholds import LOG
@@ -51,7 +51,7 @@ class Evidence:
 
     def price(self, entry: Entry) -> float:
         """Give the chi-square that an entry has to gain."""
-        return float(chi2.isf(LOG.p_value / max(len(self.entries), 1), SIZES[entry.kind]))
+        return chi2_critical(LOG.p_value / max(len(self.entries), 1), SIZES[entry.kind])
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +110,7 @@ def contradictions(evidence: Evidence) -> tuple[tuple[Contradiction, ...], Corre
     found = []
     for entry in sorted(chosen):
         without = corrected(chosen - {entry}).misfit - corrected(chosen).misfit
-        tail = float(chi2.sf(without, SIZES[entry.kind]))
+        tail = chi2_tail(without, SIZES[entry.kind])
         others = tuple(
             other
             for other in evidence.entries

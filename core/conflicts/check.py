@@ -1,35 +1,29 @@
 """Check a set-up: whether the stamps agree with the velocities, and which correction a doubtful fit needs."""
 
-from dataclasses import dataclass, replace
-from itertools import takewhile
-
-import numpy as np
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from ..estimate.problem import Problem
 from ..log.model import JointLog
-from .kinds.gear_ratio import GearRatio
-from .path import FoundConflict, Path
-from .samples import sampled
-from .search import find_conflicts
-from .setup import Setup
-from .steps import least_squares_gain
-from .thresholds import DECISION, DOUBT
 from .time_base import stamp_factor
-from .time_offset import TimeOffset, time_offset
-from .trial import Trials
+
+if TYPE_CHECKING:
+    from .path import FoundConflict, Path
+    from .setup import Setup
+    from .time_offset import TimeOffset
 
 
 @dataclass(frozen=True, eq=False)
 class Conflicts:
     """Hold what was found to disagree."""
 
-    found: tuple[FoundConflict, ...] = ()
+    found: "tuple[FoundConflict, ...]" = ()
     """Conflicts that corrections remove, in the order in which they were found."""
     stamp_factors: tuple[float | None, ...] = ()
     """Per log, the factor by which its stamps' steps are too long; None where nothing contradicts them."""
-    offsets: tuple[TimeOffset | None, ...] = ()
+    offsets: "tuple[TimeOffset | None, ...]" = ()
     """Per log, by how much its torques come later than its positions; None where they do not."""
-    of_logs: tuple[Path, ...] = ()
+    of_logs: "tuple[Path, ...]" = ()
     """Per log, what is wrong with it alone while another is right; empty where nothing is."""
     applied: bool = False
     """Whether the corrections were applied before anything else was computed."""
@@ -50,10 +44,12 @@ class Conflicts:
     @property
     def estimates_a_factor(self) -> bool:
         """Tell whether a torque was multiplied by a factor that is an estimate."""
+        from .kinds.gear_ratio import GearRatio
+
         return any(step.hypothesis.conflict == GearRatio.name for step in self.found)
 
     @property
-    def setup(self) -> Setup | None:
+    def setup(self) -> "Setup | None":
         """Give the corrected set-up; None where nothing is to be corrected."""
         return self.found[-1].hypothesis.setup if self.found else None
 
@@ -65,77 +61,6 @@ def check(
     factors = tuple(stamp_factor(log) for log in logs)
     if not doubted:
         return Conflicts((), factors, searched=False)
-    trials = Trials(sampled(problem.motions, problem.held_out), terms)
-    described = Setup(problem.base.model.robot, trials.samples.as_measured)
-    factor = next((factor for factor in factors if factor is not None), None)
-    if factor is None:
-        found = find_conflicts(described, trials)
-        return _logs_alone(problem, Conflicts(found, factors), described, trials)
-    by_velocity = find_conflicts(described.with_clock(1.0 / factor), trials)
-    found = _alike(find_conflicts(described, trials), by_velocity) if by_velocity else ()
-    return Conflicts(found, factors)
+    from .doubted import search_conflicts  # half of all conflicts' modules, and scipy.optimize
 
-
-def _logs_alone(problem: Problem, conflicts: Conflicts, described: Setup, trials: Trials) -> Conflicts:
-    """Ask of each log alone what all together do not show: a clock, or a conflict that others have not."""
-    found = conflicts.found
-    copies = tuple(step for step in found if step.hypothesis.is_shown)
-    setup = copies[-1].hypothesis.setup if copies else described
-    if _fails(found[len(copies) :], setup, trials):
-        offsets = tuple(time_offset(motion, setup, trials.terms) for motion in problem.motions)
-        if any(offsets):
-            return replace(conflicts, found=copies, offsets=offsets)
-        of_logs = _of_logs(problem, described, trials.terms)
-        if any(of_logs):
-            return replace(conflicts, found=(), of_logs=of_logs)
-    return replace(conflicts, promising=_promising(found, described, trials))
-
-
-def _fails(found: Path, setup: Setup, trials: Trials) -> bool:
-    """Tell whether the model fails on a joint and no correction surely helps."""
-    if any(step.confidence > DECISION.most_where_unsure for step in found):
-        return False
-    present = trials.outcome(setup)
-    used = setup.uses_torque
-    return present is not None and float(np.max(present.errors[used], initial=0.0)) > DOUBT.unexplained
-
-
-def _of_logs(problem: Problem, described: Setup, terms: tuple[str, ...] | None) -> tuple[Path, ...]:
-    """Search each of several logs; nothing where none is right, or what is wrong is the description."""
-    if len(problem.motions) == 1:
-        return ()
-    paths = tuple(_of_log(problem, number, described, terms) for number in range(len(problem.motions)))
-    return () if all(paths) else paths
-
-
-def _of_log(problem: Problem, number: int, described: Setup, terms: tuple[str, ...] | None) -> Path:
-    """Search one log; nothing where a correction is unsure, or is one of the description.
-
-    A log that is held out as a whole is not searched: nothing of it may decide.
-    """
-    motion = problem.motions[number]
-    held_out = frozenset((0, block) for log, block in problem.held_out if log == number)
-    if len(held_out) == motion.blocks:
-        return ()
-    found = find_conflicts(described, Trials(sampled((motion,), held_out), terms))
-    sure = all(step.confidence > DECISION.most_where_unsure for step in found)
-    return found if sure and all(step.hypothesis.channel for step in found) else ()
-
-
-def _promising(found: tuple[FoundConflict, ...], described: Setup, trials: Trials) -> float:
-    """Give what the best set-up gains by least squares where no conflict was found, if enough for one."""
-    gain = 0.0 if found else least_squares_gain(described, trials)
-    return gain if gain > DECISION.least_gain else 0.0
-
-
-def _alike(
-    described: tuple[FoundConflict, ...], by_velocity: tuple[FoundConflict, ...]
-) -> tuple[FoundConflict, ...]:
-    """Keep what is found by the clock of the stamps and by that of the velocities: either may be wrong.
-
-    A wrong clock makes inertias wrong, which another direction of gravity may seem to correct.
-    """
-    pairs = zip(described, by_velocity, strict=False)
-    return tuple(
-        own for own, _ in takewhile(lambda pair: pair[0].hypothesis.key == pair[1].hypothesis.key, pairs)
-    )
+    return search_conflicts(problem, terms, factors)

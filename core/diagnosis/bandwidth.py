@@ -10,11 +10,11 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
-from scipy.stats import median_abs_deviation
 
 from ..arrays import JointSeries, JointVector, Mask, Matrix, Samples
 from ..dynamics.prediction import Prediction
 from ..errors import ExcitationError
+from ..numerics.distributions import deviation_by_median
 from ..robot.model import INERTIAL_SYMBOLS
 from .causes.sample_check import disturbance
 from .dataset.dataset import Dataset, drowning_width, identification_width
@@ -137,7 +137,7 @@ def few_off(stamps: Samples) -> Mask:
     array([496, 497, 498, 499, 500])
     """
     scatter = beyond_cubics(np.arange(len(stamps), dtype=float), stamps[:, None])[:, 0]
-    usual = float(median_abs_deviation(scatter, scale="normal"))
+    usual = deviation_by_median(scatter)
     off = np.abs(scatter) > max(
         BAND.stamp_deviations * usual, BAND.stamp_share * float(np.median(np.diff(stamps)))
     )

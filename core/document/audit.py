@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 import numpy as np
-from scipy.stats import norm
 
 from ..arrays import LinkTable, Matrix, Vector
 from ..audit.contradictions import Contradiction, Correction, described_mass
@@ -12,6 +11,7 @@ from ..audit.entries import Entry
 from ..audit.thresholds import LOG
 from ..identification.reference import bodies_spread
 from ..identification.result import Identification
+from ..numerics.distributions import normal_tail
 from ..robot.inertia import mass_properties
 from ..robot.model import RobotModel
 from ..robot.writing import to_description
@@ -168,7 +168,7 @@ def _compared(
     whole = float(np.hypot(deviation, slack))
     known = bool(np.isfinite(whole)) and whole > 0.0
     size = float(measured - described) / whole if known else None
-    tail = 1.0 if size is None else min(1.0, 2.0 * float(norm.sf(abs(size))) * count)
+    tail = 1.0 if size is None else min(1.0, 2.0 * normal_tail(abs(size)) * count)
     return {
         "described": described,
         "measured": measured if known else None,

@@ -2,16 +2,12 @@
 
 from collections.abc import Iterator
 from functools import partial
-from typing import cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from ..conflicts.check import Conflicts
-from ..conflicts.conflict import Hypothesis
-from ..conflicts.path import FoundConflict
 from ..conflicts.reduced import mean_log
-from ..conflicts.setup import Setup
-from ..conflicts.time_offset import TimeOffset
 from ..errors import VeritorqueError
 from ..log.columns.assignment import assigned, mapping_of
 from ..log.model import JointLog
@@ -19,6 +15,12 @@ from ..robot.joint_units import prismatic_numbers
 from ..robot.model import RobotModel
 from ..robot.writing import to_description
 from .numbers import plain
+
+if TYPE_CHECKING:
+    from ..conflicts.conflict import Hypothesis
+    from ..conflicts.path import FoundConflict
+    from ..conflicts.setup import Setup
+    from ..conflicts.time_offset import TimeOffset
 
 STAMPS_CONFIDENCE = 0.9
 """Probability that the stamps are wrong and not the unit of the velocity. Set by hand: units whose factor
@@ -86,7 +88,7 @@ def with_conflicts(document: dict[str, object], rows: list[dict[str, object]]) -
     )
 
 
-def _row(found: FoundConflict, correction: dict[str, object], *, applied: bool) -> dict[str, object]:
+def _row(found: "FoundConflict", correction: dict[str, object], *, applied: bool) -> dict[str, object]:
     hypothesis, before, after = found.hypothesis, found.before, found.after
     used = hypothesis.setup.uses_torque
     return {
@@ -106,7 +108,7 @@ def _row(found: FoundConflict, correction: dict[str, object], *, applied: bool) 
     }
 
 
-def _row_of_log(found: FoundConflict, correction: dict[str, object], log: JointLog) -> dict[str, object]:
+def _row_of_log(found: "FoundConflict", correction: dict[str, object], log: JointLog) -> dict[str, object]:
     """Tabulate a conflict of one log among several."""
     row = _row(found, correction, applied=False)
     return row | {
@@ -115,7 +117,7 @@ def _row_of_log(found: FoundConflict, correction: dict[str, object], log: JointL
     }
 
 
-def _alternative(hypothesis: Hypothesis) -> dict[str, object]:
+def _alternative(hypothesis: "Hypothesis") -> dict[str, object]:
     return {
         "conflict": hypothesis.conflict,
         "joints": hypothesis.joints,
@@ -146,7 +148,7 @@ def _read(log: JointLog, place: int, conflicts: Conflicts) -> JointLog:
     return log if setup is None else assigned(log, setup.assignment)
 
 
-def _described(setup: Setup, robot: RobotModel) -> dict[str, object]:
+def _described(setup: "Setup", robot: RobotModel) -> dict[str, object]:
     """Give the fields of the description to replace."""
     fields: dict[str, object] = {}
     if setup.robot.links is not robot.links:
@@ -162,7 +164,7 @@ def _clock(factor: float | None, log: JointLog) -> dict[str, object]:
     return {} if factor is None else {"time": None, "rate_hz": log.rate_hz * factor}
 
 
-def _offset_row(offset: TimeOffset, log: JointLog, correction: dict[str, object]) -> dict[str, object]:
+def _offset_row(offset: "TimeOffset", log: JointLog, correction: dict[str, object]) -> dict[str, object]:
     before, after, late = offset.before, offset.after, offset.seconds > 0.0
     size = f"{abs(offset.seconds):.3g} s"
     return {

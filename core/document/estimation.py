@@ -1,6 +1,7 @@
 """Say by which estimator a robot was fitted, how it ended, and how its instruments differ."""
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,7 +15,9 @@ from ..identification.flexible import FlexibleJoint
 from ..identification.result import Identification
 from ..precision.endogeneity import SIGNIFICANCE, Endogeneity
 from ..precision.inference import INTERVAL_95
-from ..simulation.control.controller_check import ControllerCheck
+
+if TYPE_CHECKING:
+    from ..simulation.control.controller_check import ControllerCheck
 
 
 def estimation_fields(found: Identification) -> dict[str, object]:
@@ -80,7 +83,7 @@ def _simulation(found: Identification) -> dict[str, object]:
     }
 
 
-def _controller(check: ControllerCheck) -> dict[str, object]:
+def _controller(check: "ControllerCheck") -> dict[str, object]:
     """Describe a log's controller, and how well it recomputes the log's command."""
     return {
         "channel": check.channel,
@@ -119,7 +122,7 @@ def _beside(simulation: SimulationSetup) -> Iterator[str]:
         yield f"{told}; each period is held beside the others."
 
 
-def _recognised(number: int, check: ControllerCheck) -> str:
+def _recognised(number: int, check: "ControllerCheck") -> str:
     model, worst = check.model, 100.0 * check.tried[0].worst
     kind = {"pd": "a PD controller", "cascade": "a cascade of position and speed"}[model.kind]
     rule = model.velocity.replace("_", " ")

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import JointSeries, Samples
-from ..numerics.elementwise import differentiate_series
 from ..robot.model import RobotModel
 from ..signals.derivative import REACH, differentiate_throughout
 from ..signals.state import MotionState
@@ -56,6 +55,8 @@ class Gear:
 
 def _rate(series: Samples, state: MotionState) -> Samples:
     """Differentiate a series as positions are."""
+    from ..numerics.elementwise import differentiate_series  # compiled
+
     rate_hz, out = 1.0 / step_of(state), np.empty_like(series)
     if len(series) <= REACH:
         return differentiate_throughout(series[:, None], rate_hz)[:, 0]

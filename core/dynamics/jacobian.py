@@ -5,12 +5,9 @@ By virtual work its transpose maps a wrench on the link to joint torques. Source
 """
 
 import numpy as np
-from jaxtyping import Float
 
-from ..arrays import JointSeries
+from ..arrays import Jacobian, JointSeries
 from ..robot.model import Link, RobotModel
-
-Jacobian = Float[np.ndarray, "samples 6 joints"]
 
 
 def jacobian(robot: RobotModel, link: int, position: JointSeries) -> Jacobian:

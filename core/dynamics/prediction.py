@@ -15,7 +15,6 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from ..arrays import JointSeries, LinkTable, Parameters, Samples, Series, Weights
-from ..numerics.elementwise import add_products
 from ..robot.model import RobotModel
 from ..signals.state import MotionState
 from .model import DynamicModel, term_torque
@@ -142,6 +141,8 @@ class Prediction:
         change
             Joints x samples, to which it is added.
         """
+        from ..numerics.elementwise import add_products  # compiled
+
         by_position, by_velocity, by_acceleration = (table.T for table in self.slopes(state, joint))
         add_products((by_position, by_velocity, by_acceleration), shift, change)
 

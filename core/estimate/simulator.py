@@ -15,15 +15,13 @@ from ..reduction.base import BaseModel
 from ..regressor.rows import RowSource, Tiled
 from ..signals.condition import Motion
 from ..signals.periods import OtherPeriods, other_periods
-from ..simulation.control.controller_check import ControllerCheck
-from ..simulation.control.own_controller import controller_of
-from ..simulation.integrate import steps_between
 from ..simulation.mechanism import Mechanism, mechanism_of
 from .methods.method import CONTROLLER, PERIODS, TORQUE, WINDOWS
 from .options import SimulationOptions
 
 if TYPE_CHECKING:
     from ..simulation.closed_loop.simulated import SimulatedMotion, Source
+    from ..simulation.control.controller_check import ControllerCheck
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +29,7 @@ class SimulationSetup:
     """Hold how the logs are simulated, or which other periods stand beside them."""
 
     options: SimulationOptions = field(default_factory=SimulationOptions)
-    controllers: tuple[ControllerCheck, ...] = ()
+    controllers: tuple["ControllerCheck", ...] = ()
     """The logs' own controllers, where these drive the robot."""
     periods: tuple[OtherPeriods, ...] = ()
     """The logs' other periods, where these are taken."""
@@ -50,6 +48,8 @@ def simulation_setup(
         If a motion does not repeat.
     """
     if options.source == CONTROLLER:
+        from ..simulation.control.own_controller import controller_of
+
         found = tuple(controller_of(motion.log, options.controller) for motion in motions)
         return SimulationSetup(options, controllers=found)
     if options.source == PERIODS:
@@ -106,6 +106,7 @@ class Simulator:
         if mechanism.springs is None:
             return asked
         from ..simulation.closed_loop.springs import LONGEST_ANGLE, fastest
+        from ..simulation.integrate import steps_between
 
         angle = fastest(mechanism, self.positions) / motion.log.rate_hz
         return max(steps_between(1.0 / motion.log.rate_hz, asked), int(np.ceil(angle / LONGEST_ANGLE)))

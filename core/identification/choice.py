@@ -16,7 +16,6 @@ from ..estimate.estimate import Estimate
 from ..estimate.problem import Problem
 from ..precision.attenuation import Attenuation
 from ..simulation.mechanism import mechanism_of
-from ..simulation.multistep import compare
 
 USUAL, SPARED = "sdp", "cloe"
 """The estimator for usual noise, and the one for more. On simulated arms with encoders of 0.1 degrees the
@@ -79,6 +78,8 @@ def choose(
 
 def _gain(problem: Problem, before: Estimate, after: Estimate) -> float:
     """Give by how much errors of simulated motion on held-out blocks fall, %, the mean over joints."""
+    from ..simulation.multistep import compare  # compiled
+
     old, new = (mechanism_of(problem.base.model, one.standard) for one in (before, after))
     compared = compare(old, new, problem.motions, chosen=problem.held_out or None)
     return float(np.mean(compared.total_gain_percent))

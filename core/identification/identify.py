@@ -42,6 +42,11 @@ def no_progress(_stage: str, _fraction: float) -> None:
     """Take a report of progress and do nothing with it."""
 
 
+def scaled_progress(tell: Progress, begin: float, share: float) -> Progress:
+    """Report the progress of a part, which takes a share of the whole."""
+    return lambda stage, done: tell(stage, begin + share * done)
+
+
 @dataclass(frozen=True, eq=False)
 class Fit:
     """Hold the solution of a problem."""

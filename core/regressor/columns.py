@@ -15,7 +15,6 @@ from ..dynamics.term import Term, is_linearised
 from ..dynamics.terms.rigid_body import RigidBody
 from ..robot.model import RobotModel
 from ..signals.state import MotionState
-from .kernel import rigid_body_series
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,6 +122,8 @@ class _RigidBodyFill:
         )
 
     def __call__(self, robot: RobotModel, state: MotionState, out: Series) -> None:
+        from .kernel import rigid_body_series  # loads numba, and itself from its cache
+
         links = state.links
         rigid_body_series(
             np.ascontiguousarray(links.position.T),

@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.signal import lfilter, oaconvolve
 
 from ..arrays import BaseParameters, Indices, JointSeries, Samples, Vector
 from ..dynamics.terms.effect import rates, step_of
 from ..dynamics.terms.flexible_joints import DAMPING, STIFFNESS
+from ..numerics.filtering import convolved
 from ..signals.parallel import Tile
 from ..signals.recipe import Recipe
 from ..signals.state import MotionState
@@ -66,11 +66,13 @@ def smoothed(series: JointSeries, recipe: Recipe, step: float) -> JointSeries:
     response = kernel(recipe.position_cutoff_hz, 1.0 / step, recipe.order)
     reach = len(response) // 2
     padded = np.pad(series, ((reach, reach), (0, 0)), mode="edge")
-    return np.asarray(oaconvolve(padded, response[:, None], mode="valid", axes=0))
+    return convolved(padded, response)
 
 
 def _yielded(torque: Samples, stiffness: float, damping: float, step: float) -> Samples:
     """Solve k x + d dx = torque by the trapezoidal rule."""
+    from scipy.signal import lfilter  # takes a second to load
+
     held = 2.0 * damping / step
     weights = [stiffness + held, stiffness - held]
     return np.asarray(lfilter([1.0, 1.0], weights, torque - torque[0]) + torque[0] / stiffness)

@@ -6,12 +6,10 @@ the samples were taken at their stamps, and is independent of it where they were
 """
 
 import numpy as np
-from jaxtyping import Float
 
-from ..arrays import Samples, Vector
+from ..arrays import RowSeries, Samples, Vector
 from .white_noise import FOURTH, OUTLYING, fourth_differences, normal_spread
 
-Motion = Float[np.ndarray, "rows joints"]
 UNIFORM_TOLERANCE = 1e-3
 """Stamps that deviate from a uniform clock by less than a thousandth of a step are uniform."""
 NEAR, WINDOW, SHIFT = 1.0, 25, 0.5
@@ -35,7 +33,7 @@ def is_uniform(time: Samples, rate_hz: float) -> bool:
     return bool(np.max(np.abs(time - grid)) * rate_hz < UNIFORM_TOLERANCE)
 
 
-def is_even(time: Samples, position: Motion, rate_hz: float) -> bool:
+def is_even(time: Samples, position: RowSeries, rate_hz: float) -> bool:
     """Tell whether samples were taken evenly, whatever their stamps (s) show beside.
 
     Parameters
@@ -75,7 +73,7 @@ def _is_complete(scatter: Vector) -> bool:
     return bool(np.max(np.abs(scatter)) <= NEAR and np.max(shifts, initial=0.0) < SHIFT)
 
 
-def _followed(position: Motion, scatter: Vector, step: float) -> tuple[float, float]:
+def _followed(position: RowSeries, scatter: Vector, step: float) -> tuple[float, float]:
     """Estimate the share of the stamps' scatter that positions follow, with its standard deviation."""
     together = power = 0.0
     for values in position.T:

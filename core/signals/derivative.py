@@ -6,9 +6,9 @@ Mathematics of Computation 51 (1988), for the weights of the differentiator.
 """
 
 import numpy as np
-from scipy.ndimage import maximum_filter1d
 
 from ..arrays import InstantSeries, JointSeries, Vector
+from ..numerics.filtering import running_maximum
 
 REACH = 3
 """Samples on either side that a derivative is computed from."""
@@ -87,7 +87,7 @@ def without_absurd(values: JointSeries, order: int) -> InstantSeries:
     medians = median(values, order)
     bends = np.abs(medians[2:] - 2.0 * medians[1:-1] + medians[:-2])
     wide, reach = BENDS * side, absurd_reach(order)
-    sharpest = maximum_filter1d(bends, 2 * wide + 1, axis=0)[wide : len(bends) - wide]
+    sharpest = running_maximum(bends, wide)[wide : len(bends) - wide]
     inner, usual = values[reach : len(values) - reach], medians[wide + 1 : len(medians) - wide - 1]
     return np.asarray(np.where(np.abs(inner - usual) > BEYOND_BENDS * side * sharpest, usual, inner))
 

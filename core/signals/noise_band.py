@@ -10,9 +10,9 @@ Waugh (1933) for the part.
 from collections.abc import Sequence
 
 import numpy as np
-from scipy import signal
 
 from ..arrays import JointSeries, JointVector, Mask, Matrix
+from ..numerics.filtering import butterworth, forth_and_back, welch_density
 from .derivative import differentiate
 
 ATTENUATION = 1e-3
@@ -70,7 +70,7 @@ def noise_floor(position: JointSeries, rate_hz: float, band_hz: float) -> JointV
     """
     velocity = differentiate(position, rate_hz)
     size = 2 * (min(len(velocity), max(64, int(_SECONDS * rate_hz))) // 2)
-    frequency, power = signal.welch(velocity, rate_hz, nperseg=size, axis=0, detrend=False)
+    frequency, power = welch_density(velocity, rate_hz, size)
     highest = SPECTRUM_OVER_RATE * rate_hz
     count = max(1, int(BINS_PER_OCTAVE * np.log2(max(highest / band_hz, 1.0))))
     edges = highest * 2.0 ** (-np.arange(count, -1.0, -1.0) / BINS_PER_OCTAVE)
@@ -95,12 +95,12 @@ def own_acceleration(position: JointSeries, rate_hz: float, band_hz: float) -> J
 
     Zero where positions and speeds leave less than `OWN_PART` of it, or there are too few rows to say.
     """
-    low = signal.butter(4, min(OVER_BAND * band_hz, SPECTRUM_OVER_RATE * rate_hz), fs=rate_hz, output="sos")
+    low = butterworth(4, min(OVER_BAND * band_hz, SPECTRUM_OVER_RATE * rate_hz), rate_hz)
     edge, thin = int(rate_hz / band_hz), max(1, int(rate_hz / (4.0 * OVER_BAND * band_hz)))
     joints = position.shape[1]
     if len(position) < 2 * edge + thin * _ROWS_PER_COLUMN * (1 + 4 * joints) + 32:
         return np.zeros(joints)
-    smooth = signal.sosfiltfilt(low, position, axis=0)
+    smooth = forth_and_back(low, position)
     velocity = differentiate(smooth, rate_hz)
     acceleration = differentiate(velocity, rate_hz)[edge : -edge or None : thin]
     place, speed = smooth[6:-6][edge : -edge or None : thin], velocity[3:-3][edge : -edge or None : thin]

@@ -11,7 +11,6 @@ from functools import cached_property
 from typing import Final
 
 import numpy as np
-from scipy.signal import correlate
 
 from ..arrays import Indices, JointSeries, Samples, Vector
 from ..errors import LogError
@@ -158,6 +157,8 @@ def _scaled(position: JointSeries, robot: RobotModel) -> JointSeries:
 
 def _apart(motion: JointSeries) -> Vector:
     """Give the RMS difference of a motion from itself one, two, ... samples later, up to half its length."""
+    from scipy.signal import correlate  # takes a second to load
+
     length = len(motion)
     lags = np.arange(1, length // SEVERAL + 1)
     square = np.append(0.0, np.cumsum(np.sum(motion**2, axis=1)))

@@ -10,7 +10,6 @@ look absurd any more.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from ..arrays import Beside, Instants, InstantSeries, JointSeries, JointVector, SampleMask, Samples
 from ..log.model import STANDING_ROWS, LogRows, repeated_rows, rows_at
@@ -46,6 +45,8 @@ def uniform_positions(rows: LogRows, rate_hz: float, median_order: int) -> Joint
 
 def positions_on(grid: Instants, rows: LogRows, median_order: int) -> InstantSeries:
     """Interpolate the positions, without absurd samples, at instants inside the rows' time span."""
+    from scipy.interpolate import CubicSpline  # takes as long to load as NumPy, and even stamps need none
+
     fresh = ~dropped_mask(rows)
     time, position = rows.time[fresh], without_spikes(rows.position[fresh], median_order)
     if len(time) < 4:

@@ -9,8 +9,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.ndimage import maximum_filter1d
-from scipy.signal import oaconvolve
 
 from ..arrays import (
     Indices,
@@ -25,6 +23,7 @@ from ..arrays import (
 )
 from ..log.defects.clock import GAP_STEPS, longest_bridge
 from ..log.model import JointLog, LogRows
+from ..numerics.filtering import convolved, running_maximum
 from .clock import ROWS, is_even
 from .derivative import REACH, absurd_reach, differentiate
 from .marks import at_limit, changes_sign, long_runs
@@ -156,7 +155,7 @@ class Segment:
         left, right = max(0, begin - halo), min(self.samples, end + halo)
         read = self._read(left, right)
         padded = _extend(read.position, halo - (begin - left), halo - (right - end))
-        smooth = oaconvolve(padded, self.low_pass[:, None], mode="valid", axes=0)
+        smooth = convolved(padded, self.low_pass)
         velocity = differentiate(smooth, self.rate_hz)
         acceleration = differentiate(velocity, self.rate_hz)
         still = self.recipe.held & (np.abs(velocity) <= self.recipe.still_speed)
@@ -169,7 +168,7 @@ class Segment:
             state = replace(state, stamped_velocity=stamped, behind=behind)
         inner = slice(begin - left, len(read.effort) - (right - end))
         gap = read.unknown
-        unknown = maximum_filter1d(gap, 2 * self.reach + 1, mode="constant") if gap.any() else gap
+        unknown = running_maximum(gap, self.reach) if gap.any() else gap
         return state, read.effort[inner], unknown[inner]
 
     def _read(self, begin: int, end: int) -> Readings:
@@ -242,7 +241,7 @@ class Segment:
         if len(self.motors):
             own = changes_sign(velocity @ self.motors.T, np.sqrt(self.motors**2 @ still**2))
             marks |= (own.astype(float) @ (self.motors != 0.0)) > 0.0
-        return np.asarray(maximum_filter1d(marks, 2 * self.direction_samples + 1, axis=0, mode="constant"))
+        return running_maximum(marks, self.direction_samples)
 
     @cached_property
     def _effort_limits(self) -> JointVector:

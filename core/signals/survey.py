@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import signal
 
 from ..arrays import JointSeries, JointVector, Mask, Matrix, Vector
 from ..log.model import JointLog
+from ..numerics.filtering import amplitude_gain, butterworth, forth_and_back, welch_density
 from .derivative import differentiate_throughout
 from .noise_band import noise_floor
 from .resample import uniform_positions
@@ -75,7 +75,7 @@ def _noise_power(
 ) -> np.ndarray:
     """Give the power density of the noise of velocities, whose positions' density is that above a band."""
     density = np.mean([noise_floor(position, rate_hz, band_hz) for position in positions], axis=0)
-    passed = np.abs(signal.sosfreqz(_low_pass(rate_hz), frequency, fs=rate_hz)[1]) ** 4
+    passed = amplitude_gain(_low_pass(rate_hz), frequency, rate_hz) ** 4
     return np.asarray(np.outer((2.0 * np.pi * frequency) ** 2 * passed, density))
 
 
@@ -86,7 +86,7 @@ def _band(frequency: Vector, power: np.ndarray, share: float) -> JointVector:
 
 
 def _low_pass(rate_hz: float) -> Matrix:
-    return np.asarray(signal.butter(2, _low_pass_hz(rate_hz), fs=rate_hz, output="sos"))
+    return butterworth(2, _low_pass_hz(rate_hz), rate_hz)
 
 
 def _low_pass_hz(rate_hz: float) -> float:
@@ -94,12 +94,12 @@ def _low_pass_hz(rate_hz: float) -> float:
 
 
 def _velocity(position: JointSeries, rate_hz: float) -> JointSeries:
-    smooth = signal.sosfiltfilt(_low_pass(rate_hz), position, axis=0)
+    smooth = forth_and_back(_low_pass(rate_hz), position)
     return differentiate_throughout(smooth, rate_hz)
 
 
 def _power(velocity: JointSeries, rate_hz: float) -> np.ndarray:
     size = min(len(velocity), max(64, int(8.0 * rate_hz)))
-    _, power = signal.welch(velocity, rate_hz, nperseg=2 * (size // 2), axis=0, detrend=False)
+    _, power = welch_density(velocity, rate_hz, 2 * (size // 2))
     floor = np.median(power[int(0.7 * len(power)) :], axis=0)
     return np.asarray(np.maximum(power - floor, 0.0))

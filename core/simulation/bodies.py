@@ -15,8 +15,7 @@ from ..dynamics.term import Term
 from ..dynamics.terms.link_parameters import LinkChange
 from ..dynamics.terms.payload_change import Payload
 from ..dynamics.terms.rigid_body import RigidBody
-from .forward import Bodies
-from .inverse import bodies_of
+from .inverse import Bodies, bodies_of
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,11 +13,10 @@ from numba import njit
 
 from .factor import factorise, less_mass_times, substitute
 from .hold import hold_block
+from .inverse import Bodies
 from .kernel import BLOCK, OPTIONS, TABLE, move_masses
 
 _NONE = np.empty((0, 0))
-Bodies = tuple[np.ndarray, ...]
-"""What the kernels need of a robot, in the order of `kernel.ROBOT`."""
 
 
 @njit(inline="always")

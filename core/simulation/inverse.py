@@ -9,8 +9,9 @@ import numpy as np
 from ..arrays import JointSeries, LinkTable
 from ..robot.model import RobotModel
 from ..signals.state import MotionState
-from . import forward
-from .forward import Bodies
+
+Bodies = tuple[np.ndarray, ...]
+"""What the kernels need of a robot, in the order of `kernel.ROBOT`."""
 
 
 def inverse_dynamics(robot: RobotModel, links: LinkTable, state: MotionState) -> JointSeries:
@@ -21,6 +22,8 @@ def inverse_dynamics(robot: RobotModel, links: LinkTable, state: MotionState) ->
     links
         Ten inertial parameters per link about its frame's origin (kg m2, kg m, kg).
     """
+    from . import forward  # compiled
+
     motion = (columns(series) for series in (state.position, state.velocity, state.acceleration))
     return np.ascontiguousarray(forward.torques(bodies_of(robot, links), *motion).T)
 

@@ -26,10 +26,8 @@ from ..dynamics.terms.viscous import Viscous
 from ..errors import OptionError
 from ..robot.model import Coupling, RobotModel
 from ..signals.state import MotionState
-from . import forward
 from .bodies import Phases, is_body, phases_of
-from .forward import Bodies
-from .inverse import bodies_of, columns
+from .inverse import Bodies, bodies_of, columns
 
 NEGLIGIBLE = 1e-6
 """A friction that lies below zero by less than this, times the largest one or 1 N m (N), is zero within the
@@ -120,6 +118,8 @@ class Mechanism:
 
     def mass_matrices(self, position: JointSeries) -> np.ndarray:
         """Give the mass matrix (kg m2), rotors included, for every row of positions; of `bodies`."""
+        from . import forward  # compiled
+
         return np.asarray(forward.mass_matrices(self.bodies, columns(position)) + self.inertia)
 
     def holding(self, joints: JointMarks) -> "Mechanism":
@@ -136,6 +136,8 @@ class Mechanism:
 
     def torque(self, state: MotionState) -> JointSeries:
         """Predict the torque (N m or N) of a motion, as `DynamicModel.torque` does but compiled."""
+        from . import forward  # compiled
+
         moved = state.links
         tables = (columns(series) for series in (moved.position, moved.velocity, moved.acceleration))
         parts = self.model.split(self.parameters)

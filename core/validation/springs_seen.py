@@ -8,9 +8,9 @@ from collections.abc import Iterator, Mapping
 from typing import Final
 
 import numpy as np
-from scipy.signal import welch
 
 from ..arrays import Samples
+from ..numerics.filtering import welch_density
 
 HIGHEST_SHARE: Final = 0.3
 """Mode over the rate above which it is refused: of a faster one a period has three samples, and what holds
@@ -43,6 +43,6 @@ def reasons_unseen(evidence: Mapping[str, float]) -> Iterator[str]:
 
 def torque_share(torque: Samples, rate_hz: float, low_hz: float, high_hz: float) -> float:
     """Give the RMS of the torque between antiresonance and mode, as a share of its whole RMS."""
-    frequency, density = welch(torque, rate_hz, nperseg=min(len(torque), 4096), detrend="constant")
+    frequency, density = welch_density(torque, rate_hz, min(len(torque), 4096), detrend="constant")
     inside = (frequency >= AROUND[0] * low_hz) & (frequency <= AROUND[1] * high_hz)
     return float(np.sqrt(density[inside].sum() / density.sum()))

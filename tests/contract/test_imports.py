@@ -148,8 +148,24 @@ def test_a_service_reads_the_options_of_every_kind_without_what_only_its_computa
     assert not loaded.stdout.split()
 
 
-def test_a_computation_loads_nothing_that_only_tests_need():
-    code = "import sys, veritorque.core.study; print(*{'beartype', 'sklearn'} & set(sys.modules))"
+def test_the_study_loads_nothing_that_only_tests_or_some_computations_need():
+    late = {
+        "beartype",
+        "jaxtyping",
+        "numba",
+        "pyarrow",
+        "scipy.interpolate",
+        "scipy.ndimage",
+        "scipy.optimize",
+    }
+    late |= {
+        "scipy.signal",
+        "scipy.stats",
+        "sklearn",
+        "veritorque.core.diagnosis",
+        "veritorque.core.extension.extend",
+    }
+    code = f"import sys, veritorque.core.study; print(*sorted({late} & set(sys.modules)))"
     loaded = subprocess.run(
         [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True
     )

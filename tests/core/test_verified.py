@@ -8,6 +8,7 @@ import pytest
 from tests.core.diagnosis.scenes import measured_arm, skew_arm
 from tests.core.diagnosis.test_diagnose import diagnosed, hidden
 from veritorque.core import study
+from veritorque.core.diagnosis import diagnose
 from veritorque.core.diagnosis.result import Diagnosis
 from veritorque.core.diagnosis.thresholds.checks import CONFIDENCE
 from veritorque.core.errors import SolverError
@@ -27,7 +28,7 @@ def in_doubt(found: Diagnosis) -> Diagnosis:
 
 def studied(monkeypatch: pytest.MonkeyPatch, scene, progress=None) -> Extension:
     """Diagnose a scene where the search doubts that friction of joint 2 differs between the directions."""
-    monkeypatch.setattr(study, "find_causes", lambda *_: in_doubt(diagnosed(hidden)))
+    monkeypatch.setattr(diagnose, "diagnose", lambda *_: in_doubt(diagnosed(hidden)))
     logs = (scene.dataset.motions[0].log,)
     return diagnose_in_full(IdentifyRequest(skew_arm(), logs, {"bootstrap": {"draws": 0}}), progress)
 

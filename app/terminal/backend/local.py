@@ -86,7 +86,7 @@ class LocalBackend:
         from ...jobs.computation import Computation, LogBlob, Workspace
         from ...jobs.compute import compute
         from ...kinds.registry import kind_of
-        from ...services.catalogue import log_name
+        from ...services.log_names import log_name
 
         progress("load", 0.0)
         kind, options = kind_of(study.kind), dict(study.options)

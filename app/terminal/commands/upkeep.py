@@ -1,24 +1,20 @@
-"""Offer operators what keeps a store healthy on the command line."""
+"""Offer operators what keeps a store healthy on the command line; only who runs it loads the database."""
 
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ...lifecycle.backup import NoBackupError, back_up
-from ...lifecycle.backup import restore as restore_backup
-from ...lifecycle.doctor import examine
-from ...lifecycle.retention import expire
 from ...settings import Settings
-from ...store.blobs.sweep import Sweep
-from ...store.errors import DamagedError, UnavailableError
-from ...store.store import Store
 from ..environment import read_settings, stop
 from ..output.exit_codes import Exit
 from ..output.streams import echo
+
+if TYPE_CHECKING:
+    from ...store.store import Store
 
 PAUSE_S = 20.0
 COMMANDS = typer.Typer(add_completion=False, rich_markup_mode=None)
@@ -34,6 +30,9 @@ def gc(
 
     The service may run meanwhile; it does the same by itself every minute.
     """
+    from ...lifecycle.retention import expire
+    from ...store.blobs.sweep import Sweep
+
     settings = read_settings()
     with _open_store(settings) as store:
         for kind, count in expire(store.database, settings.retention_days).items():
@@ -47,6 +46,8 @@ def gc(
 @COMMANDS.command(epilog="\b\nExample:\n  veritorque backup backup-of-monday")
 def backup(directory: Annotated[Path, typer.Argument(help="A new directory for the backup.")]) -> None:
     """Copy everything into a new directory while the service runs."""
+    from ...lifecycle.backup import back_up
+
     with _open_store(read_settings()) as store:
         _print_counts(back_up(store, directory))
 
@@ -54,13 +55,17 @@ def backup(directory: Annotated[Path, typer.Argument(help="A new directory for t
 @COMMANDS.command(epilog="\b\nExample:\n  VERITORQUE_DATA_DIR=restored veritorque restore backup-of-sunday")
 def restore(directory: Annotated[Path, typer.Argument(help="The directory of a backup.")]) -> None:
     """Copy a backup into VERITORQUE_DATA_DIR (and VERITORQUE_DATABASE_URL), which has to be empty."""
+    from ...lifecycle import backup as backups
+
     with _open_store(read_settings()) as store:
-        _print_counts(restore_backup(directory, store))
+        _print_counts(backups.restore(directory, store))
 
 
 @COMMANDS.command(epilog="\b\nExample:\n  veritorque doctor")
 def doctor() -> None:
     """Check database, files, permissions and disk, and print remedies; exits with code 1 on damage."""
+    from ...lifecycle.doctor import examine
+
     harm = False
     for finding in examine(read_settings()):
         harm |= finding.harm
@@ -73,7 +78,11 @@ def doctor() -> None:
 
 
 @contextmanager
-def _open_store(settings: Settings) -> Iterator[Store]:
+def _open_store(settings: Settings) -> Iterator["Store"]:
+    from ...lifecycle.backup import NoBackupError
+    from ...store.errors import DamagedError, UnavailableError
+    from ...store.store import Store
+
     try:
         store = Store(settings.data_dir, settings.database_url)
         try:

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import CubicSpline
-from scipy.stats import poisson
 
 from ...arrays import JointSeries, JointVector, SampleMask, Samples
 from ...dynamics.prediction import Prediction
 from ...log.model import LogRows
+from ...numerics.distributions import poisson_at_least
 from ...signals.condition import Motion
 from ...signals.resample import dropped_mask
 from ..dataset.dataset import Dataset
@@ -52,7 +52,7 @@ class DroppedSamples(SampleCheck):
         counts = [count for motion in dataset.motions for count in _counted(motion)]
         rows, lost = sum(count.rows for count in counts), sum(count.dropped for count in counts)
         expected = sum(count.expected for count in counts)
-        p_value = float(poisson.sf(lost - 1, expected)) if lost else 1.0
+        p_value = poisson_at_least(lost, expected) if lost else 1.0
         if p_value > SAMPLE_CHECKS.level:
             return ()
         fraction = lost / rows

@@ -12,11 +12,11 @@ from typing import ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 from scipy.interpolate import CubicSpline
-from scipy.signal import oaconvolve
 
 from ...arrays import JointSeries, JointVector
 from ...dynamics.prediction import Prediction
 from ...dynamics.terms.effect import step_of
+from ...numerics.filtering import convolved
 from ...signals.condition import Motion
 from ...signals.derivative import differentiate_throughout
 from ...signals.resample import without_spikes
@@ -132,4 +132,4 @@ def _filtered(values: JointSeries, cutoff_hz: float, rate_hz: float) -> JointSer
     low_pass = kernel(cutoff_hz, rate_hz, SAMPLE_CHECKS.filter_order)
     reach = len(low_pass) // 2
     padded = np.pad(values, ((reach, reach), (0, 0)), mode="edge")
-    return np.asarray(oaconvolve(padded, low_pass[:, None], mode="valid", axes=0))
+    return convolved(padded, low_pass)

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from itertools import chain
 
 import numpy as np
-from scipy.signal import oaconvolve
-from scipy.stats import binom, norm
 
 from ...arrays import JointSeries, Vector
 from ...dynamics.prediction import Prediction
+from ...numerics.distributions import binomial_at_least, normal_tail
+from ...numerics.filtering import convolved
 from ...signals.derivative import differentiate_throughout
 from ...signals.resample import uniform_positions
 from ...signals.segment import Segment
@@ -61,8 +61,8 @@ class TimestampJitter(SampleCheck):
 
 def _by_chance(statistic: float, products: Vector) -> float:
     """Give the p-value of the sum of products, or of the count of positive ones: few may dominate the sum."""
-    positive, count = np.count_nonzero(products > 0.0), np.count_nonzero(products)
-    return float(min(2.0 * min(norm.sf(statistic), binom.sf(positive - 1, count, 0.5)), 1.0))
+    positive, count = int(np.count_nonzero(products > 0.0)), int(np.count_nonzero(products))
+    return min(2.0 * min(normal_tail(statistic), binomial_at_least(positive, count, 0.5)), 1.0)
 
 
 def _statement(found: Quantity) -> str:
@@ -91,7 +91,7 @@ def _parts(segment: Segment) -> Iterator[tuple[JointSeries, JointSeries, float]]
         return
     rows = segment.log.source.rows(segment.start, segment.start + count)
     position = uniform_positions(rows, rate_hz, segment.recipe.median_order)
-    smooth = oaconvolve(position, low_pass[:, None], mode="valid", axes=0)
+    smooth = convolved(position, low_pass)
     remainder = position[reach:-reach] - smooth
     share = 1.0 - 2.0 * float(low_pass[reach]) + float(low_pass @ low_pass)
     yield remainder, differentiate_throughout(smooth, rate_hz), share

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
-from scipy.stats import poisson
 
 from ...arrays import JointSeries, Samples
 from ...dynamics.prediction import Prediction
+from ...numerics.distributions import poisson_at_least
 from ...numerics.marked_runs import marked_runs
 from ...robot.joint_units import joint_unit
 from ...signals.condition import Motion
@@ -76,7 +76,7 @@ def _zone(dataset: Dataset, number: int, joint: int) -> DeadZone | None:
     )
     beside = float(np.quantile(flanks, SAMPLE_CHECKS.dead_flanks))
     small = beside < SAMPLE_CHECKS.dead_flank * np.median(sizes)
-    p_value = float(poisson.sf(zeros - 1, most))
+    p_value = poisson_at_least(zeros, most)
     if zeros < SAMPLE_CHECKS.dead_over_others * most or not small or p_value > SAMPLE_CHECKS.level:
         return None
     gap, width = float(sizes[0]), float(sizes[zeros - 1] - sizes[0])

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import CubicSpline
-from scipy.signal import oaconvolve
 
 from ...arrays import InstantSeries, JointSeries, Samples
 from ...dynamics.term import Term
 from ...dynamics.terms.torque_filter_lag import FilterLag
 from ...log.model import LogRows
+from ...numerics.filtering import convolved
 from ...robot.model import RobotModel
 from ...signals.zero_phase import kernel
 from ..dataset.dataset import Dataset
@@ -96,4 +96,4 @@ class TorqueFilterLag(OwnJointCause, CorrectsLog):
 def _passed(series: InstantSeries, low_pass: Samples) -> InstantSeries:
     half = len(low_pass) // 2
     padded = np.pad(series, ((half, half), (0, 0)), mode="edge")
-    return np.asarray(oaconvolve(padded, low_pass[:, None], mode="valid", axes=0))
+    return convolved(padded, low_pass)

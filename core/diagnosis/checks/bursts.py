@@ -6,9 +6,9 @@ spikes, and slow disturbances stay within a few deviations of the rest.
 """
 
 import numpy as np
-from scipy.stats import norm
 
 from ...arrays import Indices, JointSeries
+from ...numerics.distributions import log_normal_tail
 from ..dataset.dataset import Dataset
 from ..result import UnnamedPattern
 from ..thresholds.checks import UNNAMED
@@ -22,7 +22,7 @@ def burst(dataset: Dataset, residual: JointSeries) -> UnnamedPattern | None:
     ratio, joint, begin = max(found, default=(0.0, 0, 0.0))
     if ratio < UNNAMED.burst_ratio:
         return None
-    chance = float(norm.logsf(ratio) + np.log(2.0 * len(found))) / float(np.log(10.0))
+    chance = float(log_normal_tail(ratio) + np.log(2.0 * len(found))) / float(np.log(10.0))
     middle = begin + 0.5 * UNNAMED.burst_seconds
     statement = (
         f"Burst in the residual of joint {joint + 1} at {middle:.3g} s: {ratio:.2g} times the "

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from scipy.stats import norm
 
 from ...arrays import SampleMask
 from ...dynamics.prediction import Prediction
 from ...log.model import JointLog
+from ...numerics.distributions import normal_tail
 from ...robot.joint_units import joint_unit
 from ...signals.marks import at_limit
 from ..causes.protocol import Quantity, number_text
@@ -96,7 +96,7 @@ def _judged(dataset: Dataset, limit: _Limit, left: np.ndarray) -> SampleFinding 
     # Within a run the noise may be all the same; the longer a run is, the more the channel lost.
     spread = np.sqrt(np.sum([float(len(run)) ** 2 for run in runs]) * np.mean(left[elsewhere] ** 2))
     statistic = float(np.sum(beyond) / max(spread, 1e-300))
-    p_value = float(norm.sf(statistic))
+    p_value = normal_tail(statistic)
     if p_value > SAMPLE_CHECKS.level:
         return None
     share = np.zeros(dataset.joints)

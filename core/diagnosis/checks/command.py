@@ -13,9 +13,9 @@ from typing import Final
 
 import numpy as np
 from scipy.interpolate import CubicSpline
-from scipy.signal import oaconvolve
 
 from ...arrays import JointVector, Matrix, Samples, Vector
+from ...numerics.filtering import convolved
 from ...signals.condition import Motion
 from ...signals.resample import linear
 from ..causes.protocol import Site, number_text
@@ -112,7 +112,7 @@ def _channel(motion: Motion, name: str) -> Channel:
     asked, made = (np.asarray(getattr(rows, channel)) for channel in (name, "torque"))
     pairs = [linear(grid, rows.time, series) for series in (asked, made)]
     low_pass = segment.parallel.response
-    filtered = [oaconvolve(series, low_pass[:, None], mode="valid", axes=0) for series in pairs]
+    filtered = [convolved(series, low_pass) for series in pairs]
     fits = [
         _fitted(command, torque, 1.0 / segment.rate_hz, motion.recipe.decimation)
         for command, torque in zip(filtered[0].T, filtered[1].T, strict=True)

@@ -10,13 +10,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import norm
 
-from ...arrays import Indices, JointSeries, JointVector, SampleMask
-from ...dynamics.jacobian import Jacobian
+from ...arrays import Indices, Jacobian, JointSeries, JointVector, SampleMask
 from ...dynamics.prediction import Prediction
 from ...dynamics.terms.coulomb import Coulomb
 from ...dynamics.terms.external_contact import contact_jacobian
+from ...numerics.distributions import normal_tail
 from ...robot.joint_units import joint_unit
 from ..causes.protocol import Quantity, number_text
 from ..causes.sample_check import SampleFinding
@@ -157,7 +156,7 @@ def _finding(dataset: Dataset, joint: int, pushes: Sequence[_Push]) -> SampleFin
         quantities=tuple(found),
         statement=f"External contact while the arm stands: {described}",
         statistic=clearest,
-        p_value=float(max(2.0 * norm.sf(AT_REST.deviations + clearest), 1e-300)),
+        p_value=max(2.0 * normal_tail(AT_REST.deviations + clearest), 1e-300),
         residual_share=np.zeros(dataset.joints),
     )
 

@@ -7,9 +7,9 @@ Statistician 24(2), 1970, for kurtosis as bimodality; Kuensch, Ann. Stat. 17, 19
 
 import numpy as np
 from scipy.ndimage import uniform_filter1d
-from scipy.stats import norm
 
 from ...arrays import Indices, JointSeries, Vector
+from ...numerics.distributions import log_normal_tail
 from ..dataset.dataset import Dataset
 from ..residual.blocks import row_blocks
 from ..result import UnnamedPattern
@@ -32,7 +32,7 @@ def bounded_residual(dataset: Dataset, residual: JointSeries) -> UnnamedPattern 
     clearest, joint, size = max(found, default=(0.0, 0, NORMAL))
     if clearest < UNNAMED.level_deviations:
         return None
-    chance = float(norm.logsf(clearest) + np.log(len(found))) / float(np.log(10.0))
+    chance = float(log_normal_tail(clearest) + np.log(len(found))) / float(np.log(10.0))
     statement = (
         f"The residual of joint {joint} is bounded, as of a torque that switches between levels by itself "
         f"(kurtosis {size:.2g}; noise has 3 or more)"

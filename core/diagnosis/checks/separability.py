@@ -15,9 +15,9 @@ from typing import Literal
 import numpy as np
 from scipy.linalg import block_diag
 from scipy.linalg.lapack import dtrtrs
-from scipy.stats import chi2
 
 from ...arrays import SquareMatrix
+from ...numerics.distributions import chi2_critical
 from ..causes.imitation import Imitation, imitations
 from ..causes.protocol import Cause, FittedCause, Quantity, Site
 from ..causes.registry import CAUSES
@@ -129,7 +129,7 @@ def _least_explained(site: Site, fit: Fit) -> float:
 def _smallest(candidate: Candidate, score: Score, fit: Fit, kinds: int) -> Smallest | None:
     """Give the size at which the likelihood ratio reaches what entry asks for; None where a part is open."""
     level = ENTRY.level / (candidate.trials * kinds)
-    statistic = max(float(chi2.isf(level, score.freedom)), _least_explained(candidate.site, fit))
+    statistic = max(chi2_critical(level, score.freedom), _least_explained(candidate.site, fit))
     deviations = np.sqrt(np.maximum(np.diag(score.covariance), 0.0))
     if not deviations.all():
         return None

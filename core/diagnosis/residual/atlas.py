@@ -13,10 +13,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import cho_factor, cho_solve
-from scipy.stats import chi2
 
 from ...arrays import Indices, JointSeries, SquareMatrix, Vector, Weights
 from ...dynamics.prediction import Prediction
+from ...numerics.distributions import chi2_tail
 from ..dataset.dataset import Dataset
 from ..regression.ar_noise import ARNoise, fit_ar_noise, run_indices
 from .coordinates import coordinate, coordinate_names
@@ -128,7 +128,7 @@ def _dependence(name: str, joint: int, unit: str, binned: _Binned, noise: ARNois
         count=count,
         statistic=statistic,
         degrees_of_freedom=freedom,
-        p_value=float(chi2.sf(statistic, freedom)),
+        p_value=chi2_tail(statistic, freedom),
     )
 
 

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from scipy.stats import t as student
 
 from ...arrays import Indices, Vector
+from ...numerics.distributions import student_quantile
 from ..dataset.dataset import Dataset
 from ..thresholds.residual import PREDICTION
 
@@ -66,7 +66,7 @@ def share_on_blocks(prediction: Vector, residual: Vector, block: Indices) -> Sha
     share = float(gain.sum() / power.sum())
     missed = (gain - share * power) / power.sum()
     deviation = float(np.sqrt(len(gain) / (len(gain) - 1) * np.sum(missed**2)))
-    reach = float(student.ppf(PREDICTION.quantile, len(gain) - 1)) * deviation
+    reach = student_quantile(PREDICTION.quantile, len(gain) - 1) * deviation
     scaled = np.full(len(prediction), np.nan)
     scaled[judged] = factor[number] * guess
     return Share(_clip(share), (_clip(share - reach), _clip(share + reach)), scaled)

@@ -10,10 +10,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from ...arrays import JointSeries, Samples
+from ...arrays import Jacobian, JointSeries, Samples
 from ...robot.model import RobotModel
 from ...signals.state import MotionState
-from ..jacobian import Jacobian, jacobian
+from ..jacobian import jacobian
 from .effect import AllJointsTerm, Symbol, without_rounding
 
 Span = tuple[float, float]

@@ -7,9 +7,8 @@ where there is none. The scale is local, because a resting arm is quieter than a
 from dataclasses import replace
 
 import numpy as np
-from jaxtyping import Bool
 
-from ...arrays import Matrix, Series, Vector
+from ...arrays import MarkTable, Matrix, Series, Vector
 from ..model import Defect
 from .runs import Runs
 from .stretch import Facts, Stretch, count_text
@@ -19,7 +18,6 @@ SMALLEST_SHARE = {"position": 1e-3, "torque": 0.05, "current": 0.05}
 NOISE_FACTOR = 20.0
 INCREMENT_FACTOR = 4.0
 RESOLUTION_FACTOR = 3.0
-Marks = Bool[np.ndarray, "rows columns"]
 ROUNDS = 5
 """The largest spikes raise the mean distance; so often it is taken anew without those that are known."""
 
@@ -75,7 +73,7 @@ class Spikes:
         return found
 
 
-def _apart(values: Series, medians: Matrix, smallest_share: float) -> tuple[Marks, Vector]:
+def _apart(values: Series, medians: Matrix, smallest_share: float) -> tuple[MarkTable, Vector]:
     """Mark the samples that stand apart, and give the limits beyond which they do."""
     distance = np.abs(values[:, 2:-2] - medians)
     limits = _limits(values, distance, smallest_share)
@@ -89,7 +87,7 @@ def _apart(values: Series, medians: Matrix, smallest_share: float) -> tuple[Mark
     return spikes, limits
 
 
-def _replaced(values: Series, medians: Matrix, spikes: Marks) -> Series:
+def _replaced(values: Series, medians: Matrix, spikes: MarkTable) -> Series:
     if not spikes.any():
         return values
     usual = values.copy()

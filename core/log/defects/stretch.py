@@ -9,13 +9,11 @@ from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
-from jaxtyping import Bool
 
-from ...arrays import JointMarks, JointVector, Samples, Series
+from ...arrays import IncrementMask, JointMarks, JointVector, Samples, Series
 from ..channels import EFFORTS
 from ..model import Defect, LogSource
 
-Mask = Bool[np.ndarray, " increments"]
 STRETCH_ROWS = 32_768
 CONTEXT_ROWS = 4
 """Samples seen before that are given again, as many as a median of five reaches over."""
@@ -146,9 +144,9 @@ def sampled_share(samples: int, at_most: int = SAMPLED_ROWS) -> float:
     return min(1.0, at_most / max(samples, 1))
 
 
-def repeats_previous(values: Series) -> Mask:
+def repeats_previous(values: Series) -> IncrementMask:
     """Mark the samples, from the second on, in which every row equals the sample before exactly."""
-    same: Mask = values[0, 1:] == values[0, :-1]
+    same: IncrementMask = values[0, 1:] == values[0, :-1]
     for row in values[1:]:
         if not same.any():
             break

@@ -9,19 +9,22 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.parquet as pq
 
 from ...arrays import BaseParameters
-from ...extension.result import Extension
 from ...identification.result import Identification
 from ...regressor.columns import ColumnPlan
 from ...regressor.residuals import compare
 from ...robot.model import RobotModel
 from ...signals.parallel import Tile
 from .layout import EXTENDED, HELD_OUT, LOG, MEASURED, PREDICTED, REVERSAL, TIME, USED, column, unit
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+    from ...extension.result import Extension
 
 TILES_TOGETHER = 32
 """Tiles of one group of rows: 16384 rows at most."""
@@ -40,7 +43,7 @@ Rows = Mapping[str, np.ndarray]
 """Values by column."""
 
 
-def write_traces(path: Path | None, found: Identification, diagnosed: Extension | None = None) -> None:
+def write_traces(path: Path | None, found: Identification, diagnosed: "Extension | None" = None) -> None:
     """Write the file; nothing where no path is given.
 
     Parameters
@@ -51,6 +54,8 @@ def write_traces(path: Path | None, found: Identification, diagnosed: Extension 
     """
     if path is None:
         return
+    import pyarrow.parquet as pq  # takes as long to load as NumPy
+
     models = _models(found, diagnosed)
     schema = _schema(found.base.model.robot, extended=len(models) > 1)
     with (
@@ -64,7 +69,7 @@ def write_traces(path: Path | None, found: Identification, diagnosed: Extension 
                 writer.write_table(_table(group, schema))
 
 
-def _models(found: Identification, diagnosed: Extension | None) -> tuple[_Model, ...]:
+def _models(found: Identification, diagnosed: "Extension | None") -> tuple[_Model, ...]:
     if diagnosed is None or diagnosed.compared is None:
         before = _Model(found.observation.plan, found.estimate.base)
     else:
@@ -73,7 +78,9 @@ def _models(found: Identification, diagnosed: Extension | None) -> tuple[_Model,
     return (before,) if after is None else (before, _Model(after.observation.plan, after.estimate.base))
 
 
-def _table(parts: list[Rows], schema: pa.Schema) -> pa.Table:
+def _table(parts: list[Rows], schema: "pa.Schema") -> "pa.Table":
+    import pyarrow as pa
+
     rows = {name: np.concatenate([part[name] for part in parts]) for name in schema.names}
     return pa.table(rows, schema=schema)
 
@@ -110,7 +117,9 @@ def _rows(tile: Tile, models: tuple[_Model, ...], *, log: int, held_out: list[in
     }
 
 
-def _schema(robot: RobotModel, *, extended: bool) -> pa.Schema:
+def _schema(robot: RobotModel, *, extended: bool) -> "pa.Schema":
+    import pyarrow as pa
+
     kinds = {link.joint: link.kind for link in reversed(robot.links)}
     signals = (*MEASURED, *PREDICTED, *(EXTENDED if extended else ()))
     joints = range(1, len(robot.joints) + 1)

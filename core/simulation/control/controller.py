@@ -11,7 +11,6 @@ from itertools import chain
 from typing import Final, Literal, get_args
 
 import numpy as np
-from scipy.signal import lfilter
 
 from ...arrays import JointSeries, JointVector
 from ...errors import OptionError
@@ -146,6 +145,8 @@ def seen_velocity(
         return np.asarray(0.5 * (before + late(before, 1)))
     if rule == "central":
         return np.asarray(0.5 * (before + late(before, -1)))
+    from scipy.signal import lfilter  # takes a second to load
+
     pole = pole_of(cutoff_hz or np.inf, step)
     seen, _ = lfilter([1.0 - pole], [1.0, -pole], before, axis=0, zi=pole * before[:1])
     return np.asarray(seen)

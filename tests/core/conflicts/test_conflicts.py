@@ -346,7 +346,7 @@ def test_a_log_that_its_model_explains_is_not_examined(arm, monkeypatch):
     def refuse(*_):
         raise AssertionError("examined")
 
-    monkeypatch.setattr("veritorque.core.conflicts.check.find_conflicts", refuse)
+    monkeypatch.setattr("veritorque.core.conflicts.doubted.find_conflicts", refuse)
     assert identify(IdentifyRequest(robot, (log,), PLAIN))["conflicts"] == []
 
 
