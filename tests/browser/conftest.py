@@ -5,10 +5,10 @@ import pytest
 from tests.app.stubs import StubExecutor
 from tests.browser.services import serving
 from tests.browser.watch import Watched
+from tests.browser.windows import Windows
 from veritorque.app.store.keys import KeyStore
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-PATIENCE_MS = 120_000  # of a machine that is busy otherwise
 
 
 @pytest.fixture(scope="session")
@@ -62,26 +62,35 @@ def studied(browser, service):
     return address
 
 
+@pytest.fixture(scope="session")
+def windows(browser):
+    """Windows that tests are done with: to open another costs a second and a half of a processor."""
+    kept = Windows(browser)
+    yield kept
+    kept.close()
+
+
 @pytest.fixture
-def look(browser):
-    """Open pages in windows of their own; at the end none may have complained or called anybody else."""
+def look(windows):
+    """Show pages in a window each; at the end none may have complained or called anybody else.
+
+    Nothing is stored in a window when a test is given it. What is to be loaded as for the first time asks for
+    a new one, with an empty cache.
+    """
     opened = []
 
-    def at(address, *, width=1200, height=900, scheme="light", key=None):
-        context = browser.new_context(
-            viewport={"width": width, "height": height}, color_scheme=scheme, reduced_motion="reduce"
-        )
-        context.set_default_timeout(PATIENCE_MS)
-        if key is not None:
-            context.add_init_script(f"sessionStorage.setItem('veritorque-key', '{key}')")
-        watched = Watched(context.new_page(), address)
-        opened.append((context, watched))
+    def at(address, *, width=1200, height=900, scheme="light", key=None, new=False):
+        shape = {"viewport": {"width": width, "height": height}, "color_scheme": scheme}
+        page = windows.give(address, shape, key, new=new)
+        watched = Watched(page, address)
+        opened.append(watched)
         return watched
 
     yield at
-    complaints = [one for _, watched in opened for one in watched.complaints]
-    elsewhere = [url for _, watched in opened for url in watched.elsewhere]
-    for context, _ in opened:
-        context.close()
+    complaints = [one for watched in opened for one in watched.complaints]
+    elsewhere = [url for watched in opened for url in watched.elsewhere]
+    for watched in opened:
+        watched.stop()
+        windows.take_back(watched.page, watched.address)
     assert complaints == []
     assert elsewhere == []

@@ -10,7 +10,7 @@ LOOKS = {"light": {}, "dark_phone": {"scheme": "dark", "width": 390, "height": 8
 
 @pytest.mark.parametrize("path", PAGES)
 def test_a_page_is_there_within_a_second_and_two_megabytes(look, service, path):
-    seen = look(service)
+    seen = look(service, new=True)
     sizes = []
     seen.page.on("requestfinished", lambda request: sizes.append(request.sizes()["responseBodySize"]))
     times = []

@@ -141,7 +141,7 @@ def document_of(page):
 )
 def test_a_result_is_whole_and_has_no_barriers_in_any_window(look, service, studied, diagnosed, kind, name):
     address, sections = (studied, COMMON) if kind == "identify" else (diagnosed, DIAGNOSED)
-    seen = look(service, **LOOKS[name])
+    seen = look(service, **LOOKS[name], new=True)
     sizes = []
     seen.page.on("requestfinished", lambda request: sizes.append(request.sizes()["responseBodySize"]))
     page = drawn(seen.open(address.removeprefix(service)), sections)
@@ -155,7 +155,7 @@ def test_a_result_is_whole_and_has_no_barriers_in_any_window(look, service, stud
 
 def test_a_result_is_there_within_a_second(look, service, studied):
     """Of the time that its page computes until the first screen stands: a busy machine would add its own."""
-    page = look(service).page
+    page = look(service, new=True).page
     watching = page.context.new_cdp_session(page)
     watching.send("Performance.enable", {"timeDomain": "threadTicks"})
     page.goto(studied)

@@ -15,9 +15,20 @@ class Watched:
     def __init__(self, page, address):
         self.page, self.address = page, address
         self.requests, self.complaints, self.statuses = [], [], set()
-        page.on("request", lambda request: self.requests.append(request.url))
-        page.on("pageerror", lambda error: self.complaints.append(str(error)))
-        page.on("console", self._hear)
+        self._heard = {"request": self._note, "pageerror": self._complain, "console": self._hear}
+        for event, hear in self._heard.items():
+            page.on(event, hear)
+
+    def stop(self):
+        """Listen no more: the next test looks at this page, too."""
+        for event, hear in self._heard.items():
+            self.page.remove_listener(event, hear)
+
+    def _note(self, request):
+        self.requests.append(request.url)
+
+    def _complain(self, error):
+        self.complaints.append(str(error))
 
     def _hear(self, message):
         failed = FAILED_LOAD.match(message.text)
