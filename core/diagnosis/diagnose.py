@@ -13,6 +13,7 @@ import numpy as np
 from ..arrays import JointSeries
 from .causes.registry import AGAINST_REFERENCE, CAUSES
 from .checks.alternatives import Comparison, compare_alternatives
+from .checks.between_logs import BetweenLogs
 from .checks.bursts import burst
 from .checks.change_points import switching_candidates
 from .checks.findings import finding
@@ -21,6 +22,7 @@ from .checks.instruments import Instruments
 from .checks.kurtosis import bounded_residual
 from .checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
 from .checks.lagging_reference import beside_reference, lagging_reference
+from .checks.reservations import beside_dead_zones
 from .checks.samples import check_samples, dataset_of
 from .checks.spring_resonance import beside_what_swings
 from .checks.structure_left import StructureLeft, nothing_beside_structure
@@ -67,8 +69,10 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     statistic = 0.0 if unnamed is None else unnamed.statistic
     unnamed = _most_significant(unnamed, burst(dataset, after))
     checks = Instruments(fitter, chosen), StructureLeft(fitter, chosen)
-    named = [finding(found, own, after, statistic, checks) for own in comparisons]
-    findings = beside_reference([*named, *faults], lagging)
+    logs = BetweenLogs(fitter, chosen)
+    named = [finding(found, own, after, statistic, checks, logs) for own in comparisons]
+    findings = beside_dead_zones([*named, *faults], restored=bool(problem.zones))
+    findings = beside_reference(findings, lagging)
     findings, swings = beside_what_swings(findings)
     doubted = any((lagging, swings, nothing_beside_structure(findings)))
     tell("predict the residual", 0.8)

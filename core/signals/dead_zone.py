@@ -24,8 +24,9 @@ _ROWS = 1 << 16
 class DeadZone:
     """Hold the dead zone of a torque channel, within which it reads zero."""
 
+    log: int
     joint: int
-    """From 0."""
+    """Number of the log and the joint, from 0."""
     half: float
     deviation: float
     """Half of its width and its deviation, N m or N."""
@@ -45,6 +46,11 @@ class DeadZone:
     def shortfall(self) -> float:
         """Give by how much torques outside of the zone are too small, N m or N."""
         return self.half if self.shrinks else 0.0
+
+
+def zones_of(zones: Sequence[DeadZone], log: int) -> list[DeadZone]:
+    """Give the zones of one log."""
+    return [zone for zone in zones if zone.log == log]
 
 
 def with_restored_torque(log: JointLog, robot: RobotModel, zones: Sequence[DeadZone]) -> JointLog:

@@ -44,16 +44,16 @@ class TorqueDeadZone(SampleCheck):
 def zone_findings(
     dataset: Dataset, operating_point: Prediction, zones: Sequence[DeadZone]
 ) -> tuple[SampleFinding, ...]:
-    """State zones, and the share of the residual that each accounts for."""
-    return tuple(_finding(dataset, operating_point, zone) for zone in zones)
+    """State the widest zone of every channel, and the share of the residual that it accounts for."""
+    widest = {zone.joint: zone for zone in sorted(zones, key=lambda zone: zone.half)}
+    return tuple(_finding(dataset, operating_point, zone) for zone in widest.values())
 
 
 def dead_zones(dataset: Dataset) -> tuple[DeadZone, ...]:
-    """Find the widest dead zone of every channel that has one."""
+    """Find the dead zones of the channels of every log."""
     asked = product(range(len(dataset.motions)), range(dataset.joints))
     known = (_zone(dataset, log, joint) for log, joint in asked)
-    widest_last = sorted((zone for zone in known if zone is not None), key=lambda zone: zone.half)
-    return tuple({zone.joint: zone for zone in widest_last}.values())
+    return tuple(zone for zone in known if zone is not None)
 
 
 def _zone(dataset: Dataset, number: int, joint: int) -> DeadZone | None:
@@ -71,10 +71,9 @@ def _zone(dataset: Dataset, number: int, joint: int) -> DeadZone | None:
     sizes = np.sort(np.abs(others))
     near = others[np.abs(others) <= sizes[zeros - 1]]
     most = int(np.unique(near, return_counts=True)[1].max())
-    flanks = np.abs(
-        effort[np.concatenate([np.maximum(runs[:, 0] - 1, 0), np.minimum(runs[:, 1], len(effort) - 1)])]
-    )
-    beside = float(np.quantile(flanks, SAMPLE_CHECKS.dead_flanks))
+    # Where the joint turns round its friction jumps: beside one end of a stretch the torque may be large.
+    ends = effort[np.stack([np.maximum(runs[:, 0] - 1, 0), np.minimum(runs[:, 1], len(effort) - 1)])]
+    beside = float(np.quantile(np.abs(ends).min(axis=0), SAMPLE_CHECKS.dead_flanks))
     small = beside < SAMPLE_CHECKS.dead_flank * np.median(sizes)
     p_value = poisson_at_least(zeros, most)
     if zeros < SAMPLE_CHECKS.dead_over_others * most or not small or p_value > SAMPLE_CHECKS.level:
@@ -88,7 +87,7 @@ def _zone(dataset: Dataset, number: int, joint: int) -> DeadZone | None:
     # The least of torques that lie so densely is one distance off the edge, by the exponential law.
     deviation = float(np.hypot(scatter, next_width - width)) if shrinks else width / zeros
     share = zeros / (zeros + len(others))
-    return DeadZone(joint, half, deviation, shrinks, zeros, share, max(p_value, 1e-300))
+    return DeadZone(number, joint, half, deviation, shrinks, zeros, share, max(p_value, 1e-300))
 
 
 def _efforts(motion: Motion, joint: int) -> tuple[Samples, Samples]:

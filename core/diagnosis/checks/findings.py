@@ -17,6 +17,7 @@ from ..search.residuals import residual
 from ..search.state import SearchState
 from ..thresholds.checks import BLOCK_SCATTER, CONFIDENCE
 from .alternatives import Comparison
+from .between_logs import BetweenLogs
 from .block_scatter import block_log_p
 from .body_or_gain import gain_evidence, is_rather_a_gain
 from .command import command_evidence, contradicted_by_command
@@ -36,6 +37,7 @@ def finding(
     after: JointSeries,
     unnamed: float,
     checks: tuple[Instruments, StructureLeft],
+    logs: BetweenLogs,
 ) -> Finding:
     """Compose the finding of one member of the chosen hypothesis.
 
@@ -50,6 +52,8 @@ def finding(
         finding's, the finding may be no more than its trace.
     checks
         What estimates the members by instrumental variables, and what tests the residual for structure.
+    logs
+        What estimates the members in each log.
     """
     fitter, chosen, index = found.fitter, found.chosen, own.index
     dataset, left = fitter.dataset, (_baseline(fitter, chosen, index, own), after)
@@ -64,6 +68,7 @@ def finding(
     evidence = predictors(own.statistic, margin, measured)
     at = Setting(dataset, fitter.operating_point, member.site, member.scalars)
     scattered = _between_blocks(fitter, chosen, index, own)
+    in_log = logs.least_size(index)
     represented = cause.represented(at, solved) and has_known_size(cause, solved)
     tests = _tests(fitter, own, checks)
     resonance = resonance_evidence(cause.id, at, solved)
@@ -73,6 +78,7 @@ def finding(
         min(own.margin, own.over_unnamed) < 0.0,
         not represented,
         _scatters(scattered),
+        in_log is not None and in_log.is_missing,
         *(test.doubts for test in tests),
         contradicted_by_command(dataset.motions, cause.id, member.site, float(solved.values[0])),
         contradicts_resonance(resonance, solved),
@@ -93,6 +99,7 @@ def finding(
             *_evidence(own, log_p, member.trials),
             *_on_holdout(fitter, chosen, index, own),
             *scattered,
+            *(() if in_log is None else (in_log.evidence,)),
             *(one for test in tests for one in test.evidence),
             *resonance,
             *beside,

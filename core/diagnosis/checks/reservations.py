@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..causes.torque_dead_zone import TorqueDeadZone
 from ..causes.torque_gain import TorqueGain
 from ..result import Diagnosis, Evidence, Finding
 from ..thresholds.checks import CONFIDENCE, RESIDUAL, VERDICT
@@ -48,6 +49,35 @@ def with_reservations(
         # What cannot be identified is known at a good fit only, and the model does not fit.
         not_identifiable=() if failed else found.not_identifiable,
     )
+
+
+def beside_dead_zones(findings: Sequence[Finding], *, restored: bool) -> list[Finding]:
+    """Limit findings on joints of which a dead zone that stays accounts for more than they explain.
+
+    What the channel keeps back is a torque of the load and of the direction of motion, as friction is, and
+    comes and goes, as contacts do. A transient cause acts on all joints before its own. A gain is one against
+    the other joints: on which of them the torque is too small no log tells.
+    """
+    zones = {} if restored else _zones(findings)
+
+    def limited(finding: Finding) -> Finding:
+        reach = zones if finding.cause == TorqueGain.id else _reach(finding)
+        spoilt = max((zones.get(joint, 0.0) for joint in reach), default=0.0)
+        return as_doubtful(finding) if spoilt > finding.explained_fraction else finding
+
+    return [limited(finding) for finding in findings]
+
+
+def _zones(findings: Sequence[Finding]) -> dict[int, float]:
+    """Give, by joint, the share of the residual that its dead zone explains."""
+    return {one.joints[0]: one.explained_fraction for one in findings if one.cause == TorqueDeadZone.id}
+
+
+def _reach(finding: Finding) -> Sequence[int]:
+    """List the joints, from 1, whose torques bear on a finding; none on one that the search did not make."""
+    if finding.member is None:
+        return ()
+    return range(1, max(finding.joints) + 1) if finding.member.cause.traits.transient else finding.joints
 
 
 def beside_another_setup(findings: Sequence[Finding], promising: float) -> tuple[Finding, ...]:

@@ -4,7 +4,7 @@ Samples are checked at a wide band. What a dead zone takes from a torque is then
 torques are too small, the model tells better than the zeros do.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -13,6 +13,7 @@ from ...signals.dead_zone import DeadZone
 from ..bandwidth import Fitted, limit_bandwidth
 from ..causes.external_contact import ExternalContact
 from ..causes.protocol import Cause
+from ..causes.registry import CAUSES
 from ..causes.registry import SAMPLE_CHECKS as CHECKS
 from ..causes.sample_check import SampleCheck, SampleFinding
 from ..causes.torque_dead_zone import TorqueDeadZone, dead_zones, zone_findings
@@ -20,9 +21,10 @@ from ..dataset.dataset import Dataset, build_dataset, torque_sign
 from ..dataset.refusals import refuse_too_little, refuse_unjudged
 from ..problem import DiagnosisProblem
 from ..regression.gls import fit
-from ..regression.rows import append_columns
+from ..regression.rows import Columns, append_columns
 from ..result import Finding
 from ..search.fitter import HypothesisFitter, hypothesis_fitter
+from ..search.hypothesis import Hypothesis
 from ..thresholds.dataset import SAMPLE_CHECKS
 from .clipped_channel import ClippedChannel, clipped_channels
 from .contact_at_rest import contacts_at_rest
@@ -43,7 +45,8 @@ def check_samples(problem: DiagnosisProblem) -> tuple[DiagnosisProblem, list[Fin
     """
     wide, dataset, plain = _limited(problem)
     zones = dead_zones(wide[0])
-    if zones:
+    # A reference was identified from torques as they were recorded, and its channels had the same zones.
+    if zones and problem.reference is None:
         as_counted = _limited(replace(problem, zones=zones))
         zones = tuple(_refined_zones(zones, as_counted))
         problem = replace(problem, zones=zones)
@@ -82,12 +85,14 @@ def dataset_of(problem: DiagnosisProblem, width: float) -> Dataset:
 def _refined_zones(zones: tuple[DeadZone, ...], limited: Limited) -> Iterator[DeadZone]:
     """Fit to the model by how much the torques outside of dead zones are too small, beside what was added.
 
-    What one lacks has the sign of the torque. Where torques lack nothing, zeros are those of lost samples.
+    What one lacks has the sign of the torque, and other causes depend on that, too. All that may act on the
+    joint is fitted beside it. Where torques lack nothing, zeros are those of lost samples.
     """
-    _, dataset, (fitter, _) = limited
-    shrinking, signs = [zone for zone in zones if zone.shrinks], torque_sign(dataset)
-    columns = [{zone.joint: signs[:, [zone.joint]]} for zone in shrinking]
-    fitted = fit(append_columns(fitter.rows.fitted, columns), ordinary=fitter.ordinary_noise)
+    _, dataset, (fitter, found) = limited
+    shrinking = [zone for zone in zones if zone.shrinks]
+    columns = _sign_columns(shrinking, dataset)
+    beside = _causes_on(fitter, found, {zone.joint + 1 for zone in shrinking})
+    fitted = fit(append_columns(fitter.rows.fitted, [*beside, *columns]), ordinary=fitter.ordinary_noise)
     first = len(fitted.values) - len(shrinking)
     deviations = np.sqrt(np.diag(fitted.covariance)[first:])
     for zone, more, deviation in zip(shrinking, fitted.values[first:], deviations, strict=True):
@@ -95,6 +100,21 @@ def _refined_zones(zones: tuple[DeadZone, ...], limited: Limited) -> Iterator[De
         if refined is not None:
             yield refined
     yield from (zone for zone in zones if not zone.shrinks)
+
+
+def _sign_columns(zones: Sequence[DeadZone], dataset: Dataset) -> list[Columns]:
+    signs = torque_sign(dataset)
+    own = [(dataset.log == zone.log)[:, None] for zone in zones]
+    return [{zone.joint: signs[:, [zone.joint]] * rows} for zone, rows in zip(zones, own, strict=True)]
+
+
+def _causes_on(fitter: HypothesisFitter, found: Hypothesis, joints: set[int]) -> list[Columns]:
+    """Give the columns of all causes that may act on some joints (from 1) all the time, each at its best."""
+    lasting = [cause for cause in CAUSES if not cause.traits.transient]
+    searching = fitter.with_causes(lasting, None).linearised_at(found)
+    scanned = (scored for scored in searching.scan(found) if scored.identifiable)
+    sites = {(joint,) for joint in joints}
+    return searching.columns([scored.candidate for scored in scanned if scored.candidate.site in sites])
 
 
 def _refined(zone: DeadZone, half: float, deviation: float) -> DeadZone | None:

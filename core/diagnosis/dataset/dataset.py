@@ -22,7 +22,7 @@ from ...regressor.columns import ColumnPlan
 from ...robot.joint_units import prismatic_joints
 from ...robot.model import RobotModel
 from ...signals.condition import Motion, condition
-from ...signals.dead_zone import DeadZone, unread, with_restored_torque
+from ...signals.dead_zone import DeadZone, unread, with_restored_torque, zones_of
 from ...signals.recipe import FilterOptions, choose_recipe
 from ...signals.state import MotionState, concatenate_states
 from ..thresholds.dataset import BAND, ROWS
@@ -127,23 +127,26 @@ def build_dataset(
     width
         Ratio of the data set's band to the motion's.
     zones
-        Dead zones of torque channels, one of a joint: what they take is added, and rows within are not used.
+        Dead zones of torque channels: what they take is added, and rows within are not used.
 
     Raises
     ------
     ExcitationError
         If no row is left.
     """
-    restored = [with_restored_torque(log, model.robot, zones) for log in logs]
     motions = tuple(
-        condition(log, model.robot, _options(log, width, model.robot), blocks=blocks, number=number)
-        for number, log in enumerate(restored)
+        condition(
+            with_restored_torque(log, model.robot, zones_of(zones, number)),
+            model.robot,
+            _options(log, width, model.robot),
+            blocks=blocks,
+            number=number,
+        )
+        for number, log in enumerate(logs)
     )
     parts = _segments(motions, model.robot, [log.duration for log in logs])
     series = _concatenate_series(parts)
-    # A filter's main lobe is a period of its cut-off wide.
-    lobes = [1.0 / motion.recipe.cutoff_hz for motion in motions]
-    read = ~np.vstack([unread(logs[part.log], zones, part.time, lobes[part.log]) for part in parts])
+    read = _read_rows(parts, logs, motions, zones)
     series |= {name: series[name] & read for name in ("usable", "clear")}
     keys = {log * blocks + block for log, block in held_out}
     return Dataset(
@@ -217,6 +220,18 @@ def _concatenate_series(parts: Sequence[DatasetSegment]) -> dict[str, np.ndarray
         "usable": np.vstack([part.usable for part in parts]),
         "clear": np.vstack([part.usable & part.clear for part in parts]),
     }
+
+
+def _read_rows(
+    parts: Sequence[DatasetSegment],
+    logs: Sequence[JointLog],
+    motions: Sequence[Motion],
+    zones: Sequence[DeadZone],
+) -> JointMask:
+    """Mark the rows of all segments, per joint, in which no torque is mixed that a channel read as zero."""
+    lobes = [1.0 / motion.recipe.cutoff_hz for motion in motions]  # a main lobe's width is a period
+    marks = [unread(logs[own.log], zones_of(zones, own.log), own.time, lobes[own.log]) for own in parts]
+    return ~np.vstack(marks)
 
 
 def _join_sticking(parts: Sequence[DatasetSegment]) -> tuple[csr_array, ...]:

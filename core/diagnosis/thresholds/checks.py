@@ -103,6 +103,20 @@ class BlockScatter:
 
 
 @dataclass(frozen=True)
+class BetweenLogs:
+    """Decide whether a log holds so little of a finding that it is another log's alone."""
+
+    least: float = 0.5
+    """Size in a log over that in all logs: of an effect that one of two equal logs has, they hold none of it
+    and twice as much. Set by hand, between that and one."""
+    clearness: float = 3.0
+    """Deviations by which it has to be smaller. Source: the usual level of 0.1 %."""
+    ridge: float = 1e-6
+    """Share of a column's square that keeps a log's equations regular: what the log does not show stays.
+    Set by hand, above rounding of the products and below what any log shows."""
+
+
+@dataclass(frozen=True)
 class PositionNoise:
     """Decide whether noise of the positions may account for a finding."""
 
@@ -215,7 +229,8 @@ class Command:
     """Standard deviations that are added to what it shows."""
 
 
-COMMAND, BLOCK_SCATTER, POSITION_NOISE = Command(), BlockScatter(), PositionNoise()
+COMMAND, BLOCK_SCATTER, BETWEEN_LOGS = Command(), BlockScatter(), BetweenLogs()
+POSITION_NOISE = PositionNoise()
 SPRING_RESONANCE, STRUCTURE_LEFT = SpringResonance(), StructureLeft()
 RESIDUAL, SEPARATION, AT_REST, MOTION = Residual(), Separation(), AtRest(), Motion()
 ALTERNATIVES, VERDICT, UNNAMED, CONFIDENCE = Alternatives(), Verdict(), Unnamed(), Confidence()

@@ -116,9 +116,9 @@ class SampleChecks:
     """Ratio of zeros to the most frequent other value among as many torques next to zero. A channel that cuts
     off what is below its step has twice as many zeros."""
     dead_flank: float = 0.5
-    """Share of the median torque that torques beside a stretch of zeros have to be below."""
+    """Share of the median torque that the smaller torque beside a stretch of zeros has to be below."""
     dead_flanks: float = 0.9
-    """Quantile of the torques beside zeros that is compared with it: those of lost samples are anywhere."""
+    """Share of the stretches of which it has to be: lost samples are anywhere."""
     dead_gap: float = 0.5
     """Share of the width without values beside zero from which larger torques are taken to be unchanged."""
     dead_clearness: float = 3.0

@@ -1,4 +1,4 @@
-"""A finding is doubtful where another set-up explains more."""
+"""A finding is doubtful where a dead zone of the torque, or another set-up, accounts for more."""
 
 from dataclasses import replace
 
@@ -10,8 +10,9 @@ from veritorque.core.diagnosis.causes.external_contact import ExternalContact
 from veritorque.core.diagnosis.causes.friction_load_dependent import FrictionLoadDependent
 from veritorque.core.diagnosis.causes.protocol import Cause, Site
 from veritorque.core.diagnosis.causes.sample_check import SampleFinding
+from veritorque.core.diagnosis.causes.torque_dead_zone import TorqueDeadZone
 from veritorque.core.diagnosis.checks.findings import sample_finding
-from veritorque.core.diagnosis.checks.reservations import beside_another_setup
+from veritorque.core.diagnosis.checks.reservations import beside_another_setup, beside_dead_zones
 from veritorque.core.diagnosis.result import Finding, Gain
 from veritorque.core.diagnosis.search.hypothesis import Candidate
 from veritorque.core.diagnosis.thresholds.checks import CONFIDENCE
@@ -19,13 +20,34 @@ from veritorque.core.diagnosis.thresholds.checks import CONFIDENCE
 SURE = 0.97
 
 
-def found(cause: Cause, site: Site, share: float) -> Finding:
+def found(cause: Cause | TorqueDeadZone, site: Site, share: float) -> Finding:
     """Give a sure finding that explains so much."""
     shares = np.full(3, share)
     made = sample_finding(
         cause, SampleFinding(site, (), "found", 1.0, 1.0 - SURE, shares), eventful_scene().dataset
     )
-    return replace(made, member=Candidate(cause, site, {}, 1.0))
+    return (
+        made if isinstance(cause, TorqueDeadZone) else replace(made, member=Candidate(cause, site, {}, 1.0))
+    )
+
+
+@pytest.mark.parametrize(
+    ("cause", "site", "zone", "share", "doubtful"),
+    [
+        (FrictionLoadDependent(), (2,), 2, 0.8, True),
+        (FrictionLoadDependent(), (2,), 2, 0.1, False),
+        (FrictionLoadDependent(), (2,), 1, 0.8, False),
+        (ExternalContact(), (3,), 1, 0.8, True),
+        (ExternalContact(), (2,), 3, 0.8, False),
+    ],
+    ids=["same joint", "small zone", "another joint", "a joint that a contact loads", "one that it does not"],
+)
+def test_what_a_dead_zone_accounts_for_is_named_with_reserve(cause, site, zone, share, doubtful):
+    both = [found(cause, site, 0.3), found(TorqueDeadZone(), (zone,), share)]
+    limited, dead = beside_dead_zones(both, restored=False)
+    assert beside_dead_zones(both, restored=True) == both
+    assert dead.confidence == pytest.approx(SURE)
+    assert limited.confidence == pytest.approx(0.5 if doubtful else SURE)
 
 
 GAINED = 0.2

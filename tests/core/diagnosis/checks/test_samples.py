@@ -1,5 +1,7 @@
 """Causes are searched in torques from which dead zones were taken out, at the width that the model tells."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -14,14 +16,16 @@ from tests.core.diagnosis.causes.test_sample_checks import (
 from veritorque.core.diagnosis.causes.torque_dead_zone import dead_zones
 from veritorque.core.diagnosis.checks.samples import check_samples
 from veritorque.core.diagnosis.problem import DiagnosisProblem
+from veritorque.core.identification.reference import Reference
 from veritorque.core.log.model import JointLog
+from veritorque.core.reduction.base import base_model
 from veritorque.core.regressor.columns import all_columns
 
 SHRINKS = "too little by as much"
 
 
-def problem(log: JointLog) -> DiagnosisProblem:
-    return DiagnosisProblem(all_columns(operating_point().model), (log,), frozenset(), 5)
+def problem(*logs: JointLog) -> DiagnosisProblem:
+    return DiagnosisProblem(all_columns(operating_point().model), logs, frozenset(), 5)
 
 
 @pytest.mark.parametrize("words", ZONES)
@@ -46,6 +50,51 @@ def test_the_model_tells_the_width_better_than_the_zeros_do():
     assert width.value == pytest.approx(asked.zones[0].half)
     assert width.standard_deviation < 0.3 * counted.deviation
     assert abs(width.value - DEAD) < 3.0 * width.standard_deviation
+
+
+def test_a_zone_is_found_where_friction_makes_torques_jump_out_of_it():
+    """Beside one end of a stretch of zeros the torque is then as large as anywhere."""
+    friction, half = 20.0, 4.0
+    rows = recorded().source.data
+    way = np.sign(np.gradient(rows.position[:, 0], rows.time))
+
+    def rubbed(torque: np.ndarray) -> np.ndarray:
+        acts = torque + friction * way
+        return np.sign(acts) * np.maximum(np.abs(acts) - half, 0.0)
+
+    (zone,) = dead_zones(looked_at(with_torque(rubbed)))
+    assert zone.half == pytest.approx(half, abs=3.0 * zone.deviation)
+
+
+def test_a_zone_is_as_wide_beside_another_effect_of_the_torque():
+    """A channel that loses a tenth of the largest torque, by its cube."""
+    asked, _, _ = check_samples(
+        problem(with_torque(lambda torque: ZONES[SHRINKS][0](torque * (1.0 - 0.1 * (torque / 42.0) ** 2))))
+    )
+    assert [zone.half for zone in asked.zones] == pytest.approx([DEAD], rel=0.03)
+
+
+def test_of_two_logs_the_one_with_a_zone_is_restored():
+    spoilt, sound = with_torque(ZONES[SHRINKS][0]), recorded(seed=8)
+    asked, (fault,), fitter = check_samples(problem(sound, spoilt))
+    (zone,) = asked.zones
+    assert (zone.log, zone.joint) == (1, 0)
+    assert zone.half == pytest.approx(DEAD, abs=3.0 * zone.deviation)
+    assert fault.quantities[0].value == pytest.approx(zone.half)
+    plain = check_samples(problem(sound))[2].dataset
+    np.testing.assert_array_equal(
+        fitter.dataset.torque[fitter.dataset.log == 0][:50], plain.torque[plain.log == 0][:50]
+    )
+
+
+def test_torques_beside_a_reference_stay_as_they_were_recorded():
+    spoilt = with_torque(ZONES[SHRINKS][0])
+    base, standard = base_model(operating_point().model), operating_point().standard
+    values = base.base_of(standard)
+    reference = Reference("earlier", base, standard, values, np.eye(len(values)))
+    asked, faults, _ = check_samples(replace(problem(spoilt), reference=reference))
+    assert asked.zones == ()
+    assert [one.cause for one in faults] == ["torque_dead_zone"]
 
 
 def lost_at_small_torques() -> JointLog:

@@ -1,0 +1,112 @@
+"""Estimate a finding's size in each of several logs: a robot that was changed between them has two.
+
+A finding is one effect in all logs. A fit of all columns to one log's rows tells how large it is there, and
+the scatter between the log's blocks how well that is known, whatever the noise is. Source: Cochran,
+Biometrics 10(1), 1954, on comparing the estimates of several experiments.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+
+from ...arrays import Indices, Matrix, SquareMatrix, Vector
+from ..causes.protocol import number_text
+from ..residual.blocks import row_blocks
+from ..result import Evidence
+from ..search.fitter import HypothesisFitter
+from ..search.hypothesis import Hypothesis
+from ..thresholds.checks import BETWEEN_LOGS, BLOCK_SCATTER
+
+
+@dataclass(frozen=True)
+class SizeInLog:
+    """Hold the size of a finding in one log over its size in all logs, and its deviation."""
+
+    log: str
+    size: float
+    deviation: float
+
+    @property
+    def is_missing(self) -> bool:
+        """Tell whether the log clearly holds less than half of the finding."""
+        return self.size + BETWEEN_LOGS.clearness * self.deviation < BETWEEN_LOGS.least
+
+    @property
+    def evidence(self) -> Evidence:
+        """State it."""
+        return Evidence(
+            f"Size of the finding in log {self.log} over that in all logs, ± {number_text(self.deviation)}; "
+            f"clearly below {BETWEEN_LOGS.least:g} the finding is doubtful: it acts in other logs only",
+            "least size in a log",
+            self.size,
+        )
+
+
+@dataclass(eq=False)
+class _Block:
+    """Sum up the normal equations of a block of rows: products of columns, and with what is left."""
+
+    gram: SquareMatrix
+    slope: Vector
+
+    def add(self, acting: Indices, columns: Matrix, left: Vector) -> None:
+        """Add rows of one joint."""
+        self.gram[np.ix_(acting, acting)] += columns.T @ columns
+        self.slope[acting] += columns.T @ left
+
+
+@dataclass(frozen=True, eq=False)
+class BetweenLogs:
+    """Fit the columns of a hypothesis to each log by itself."""
+
+    fitter: HypothesisFitter
+    chosen: Hypothesis
+
+    def least_size(self, index: int) -> SizeInLog | None:
+        """Give a member's size in the log that holds least of it; None of one log or a transient cause."""
+        if len(self.fitter.dataset.motions) < 2 or self.chosen.members[index].cause.traits.transient:
+            return None
+        return min(self._sizes(index), key=lambda one: one.size, default=None)
+
+    def _sizes(self, index: int) -> Iterator[SizeInLog]:
+        own = self.chosen.columns_of(index)
+        value = self.chosen.fit.values[own]
+        weight = np.zeros(len(self.chosen.fit.values))
+        weight[own] = np.linalg.solve(self.chosen.covariance(index), value)
+        weight /= weight[own] @ value
+        for motion, blocks in zip(self.fitter.dataset.motions, self._blocks, strict=True):
+            if len(blocks) > 1:
+                yield SizeInLog(motion.log.name, *_size(blocks, weight))
+
+    @cached_property
+    def _blocks(self) -> list[list[_Block]]:
+        """Give the normal equations of every block of every log."""
+        dataset = self.fitter.dataset
+        block, width = row_blocks(dataset, BLOCK_SCATTER.blocks), len(self.chosen.fit.values)
+        log = {int(number): int(own) for number, own in zip(block, dataset.log, strict=True)}
+        found = {number: _Block(np.zeros((width, width)), np.zeros(width)) for number in log}
+        fit = self.chosen.fit
+        for rows, part, left in zip(self.fitter.rows.fitted, fit.joints, fit.left, strict=True):
+            columns = part.nuisance.without_nuisance(part.columns)
+            of_row = block[rows.rows]
+            for number in np.unique(of_row):
+                own = of_row == number
+                found[int(number)].add(part.acting, columns[own], left[own])
+        logs = range(len(dataset.motions))
+        return [[found[number] for number, own in log.items() if own == place] for place in logs]
+
+
+def _size(blocks: Sequence[_Block], weight: Vector) -> tuple[float, float]:
+    """Give one more than a log changes along some weights, and its deviation by the scatter of blocks."""
+    gram = np.sum([block.gram for block in blocks], axis=0)
+    slope = np.sum([block.slope for block in blocks], axis=0)
+    squares = np.diag(gram)
+    scale = np.sqrt(np.where(squares > 0.0, squares, 1.0))
+    factor = cho_factor(gram / np.outer(scale, scale) + BETWEEN_LOGS.ridge * np.eye(len(gram)))
+    change = cho_solve(factor, slope / scale) / scale
+    along = cho_solve(factor, weight / scale) / scale
+    moved = np.array([along @ (block.slope - block.gram @ change) for block in blocks])
+    return float(1.0 + weight @ change), float(np.sqrt(np.sum(moved**2) * len(moved) / (len(moved) - 1)))
