@@ -48,7 +48,7 @@ def check_samples(problem: DiagnosisProblem) -> tuple[DiagnosisProblem, list[Fin
     # A reference was identified from torques as they were recorded, and its channels had the same zones.
     if zones and problem.reference is None:
         as_counted = _limited(replace(problem, zones=zones))
-        zones = tuple(_refined_zones(zones, as_counted))
+        zones = _refined_zones(zones, as_counted)
         problem = replace(problem, zones=zones)
         _, dataset, plain = _limited(problem)
     fitter = replace(plain[0], dataset=dataset)
@@ -82,24 +82,29 @@ def dataset_of(problem: DiagnosisProblem, width: float) -> Dataset:
     )
 
 
-def _refined_zones(zones: tuple[DeadZone, ...], limited: Limited) -> Iterator[DeadZone]:
+def _refined_zones(zones: tuple[DeadZone, ...], limited: Limited) -> tuple[DeadZone, ...]:
+    """Give the zones as wide as zeros and model have them; without those that the model denies."""
+    shrinking = [zone for zone in zones if zone.shrinks]
+    widths = _fitted_widths(shrinking, limited) if shrinking else []
+    refined = (_refined(zone, *width) for zone, width in zip(shrinking, widths, strict=True))
+    others = (zone for zone in zones if not zone.shrinks)
+    return (*others, *(zone for zone in refined if zone is not None))
+
+
+def _fitted_widths(zones: Sequence[DeadZone], limited: Limited) -> list[tuple[float, float]]:
     """Fit to the model by how much the torques outside of dead zones are too small, beside what was added.
 
     What one lacks has the sign of the torque, and other causes depend on that, too. All that may act on the
-    joint is fitted beside it. Where torques lack nothing, zeros are those of lost samples.
+    joint is fitted beside it. Gives half widths and deviations, N m or N.
     """
     _, dataset, (fitter, found) = limited
-    shrinking = [zone for zone in zones if zone.shrinks]
-    columns = _sign_columns(shrinking, dataset)
-    beside = _causes_on(fitter, found, {zone.joint + 1 for zone in shrinking})
-    fitted = fit(append_columns(fitter.rows.fitted, [*beside, *columns]), ordinary=fitter.ordinary_noise)
-    first = len(fitted.values) - len(shrinking)
-    deviations = np.sqrt(np.diag(fitted.covariance)[first:])
-    for zone, more, deviation in zip(shrinking, fitted.values[first:], deviations, strict=True):
-        refined = _refined(zone, zone.half - float(more), float(deviation))
-        if refined is not None:
-            yield refined
-    yield from (zone for zone in zones if not zone.shrinks)
+    beside = _causes_on(fitter, found, {zone.joint + 1 for zone in zones})
+    rows = append_columns(fitter.rows.fitted, [*beside, *_sign_columns(zones, dataset)])
+    fitted = fit(rows, ordinary=fitter.ordinary_noise)
+    lacking = fitted.values[-len(zones) :]
+    deviations = np.sqrt(np.diag(fitted.covariance)[-len(zones) :])
+    told = zip(zones, lacking, deviations, strict=True)
+    return [(zone.half - float(more), float(deviation)) for zone, more, deviation in told]
 
 
 def _sign_columns(zones: Sequence[DeadZone], dataset: Dataset) -> list[Columns]:
@@ -118,7 +123,10 @@ def _causes_on(fitter: HypothesisFitter, found: Hypothesis, joints: set[int]) ->
 
 
 def _refined(zone: DeadZone, half: float, deviation: float) -> DeadZone | None:
-    """Weigh the width that zeros show with the model's, N m or N; None where the model clearly has none."""
+    """Weigh the width that zeros show with the model's, N m or N; None where the model clearly has none.
+
+    Where torques lack nothing, zeros are those of lost samples.
+    """
     if deviation < zone.deviation and half < SAMPLE_CHECKS.dead_clearness * deviation:
         return None
     counted, fitted = zone.deviation**-2, deviation**-2
