@@ -11,6 +11,7 @@ from veritorque.core.diagnosis.causes.protocol import Cause
 from veritorque.core.diagnosis.causes.time_delay import TimeDelay
 from veritorque.core.diagnosis.causes.torque_saturation import TorqueSaturation
 from veritorque.core.diagnosis.checks.alternatives import Comparison, compare_alternatives
+from veritorque.core.diagnosis.checks.between_logs import BetweenLogs
 from veritorque.core.diagnosis.checks.findings import finding
 from veritorque.core.diagnosis.checks.instruments import Instruments
 from veritorque.core.diagnosis.checks.position_noise import NoiseTest, noise_test, noise_worth
@@ -69,7 +70,8 @@ def _noisy(state: SearchState, drawn: np.ndarray) -> SearchState:
 
 def _confidence(state: SearchState, own: Comparison, after: np.ndarray) -> float:
     checks = Instruments(state.fitter, state.chosen), StructureLeft(state.fitter, state.chosen)
-    return finding(state, own, after, 0.0, checks).confidence
+    logs = BetweenLogs(state.fitter, state.chosen)
+    return finding(state, own, after, 0.0, checks, logs).confidence
 
 
 @pytest.mark.parametrize("alike", [False, True])
