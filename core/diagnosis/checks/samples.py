@@ -13,8 +13,7 @@ from ...signals.dead_zone import DeadZone
 from ..bandwidth import Fitted, limit_bandwidth
 from ..causes.external_contact import ExternalContact
 from ..causes.protocol import Cause
-from ..causes.registry import CAUSES
-from ..causes.registry import SAMPLE_CHECKS as CHECKS
+from ..causes.registry import CAUSES, SAMPLE_CHECKS
 from ..causes.sample_check import SampleCheck, SampleFinding
 from ..causes.torque_dead_zone import TorqueDeadZone, dead_zones, zone_findings
 from ..dataset.dataset import Dataset, build_dataset, torque_sign
@@ -25,7 +24,7 @@ from ..regression.rows import Columns, append_columns
 from ..result import Finding
 from ..search.fitter import HypothesisFitter, hypothesis_fitter
 from ..search.hypothesis import Hypothesis
-from ..thresholds.dataset import SAMPLE_CHECKS
+from ..thresholds import dataset as thresholds
 from .clipped_channel import ClippedChannel, clipped_channels
 from .contact_at_rest import contacts_at_rest
 from .findings import sample_finding
@@ -45,12 +44,11 @@ def check_samples(problem: DiagnosisProblem) -> tuple[DiagnosisProblem, list[Fin
     """
     wide, dataset, plain = _limited(problem)
     zones = dead_zones(wide[0])
-    # A reference was identified from torques as they were recorded, and its channels had the same zones.
+    # A reference was fitted to torques as they were recorded, whose channels may have had the same zones.
     if zones and problem.reference is None:
-        as_counted = _limited(replace(problem, zones=zones))
-        zones = _refined_zones(zones, as_counted)
+        zones = _refined_zones(zones, _limited(replace(problem, zones=zones)))
         problem = replace(problem, zones=zones)
-        _, dataset, plain = _limited(problem)
+        _, dataset, plain = _limited(problem) if zones else (wide, dataset, plain)
     fitter = replace(plain[0], dataset=dataset)
     typical = with_typical_holdout(dataset, plain, lambda other: _plain_fit(fitter.with_dataset(other)))
     found = fitter if typical is dataset else fitter.with_dataset(typical)
@@ -60,7 +58,7 @@ def check_samples(problem: DiagnosisProblem) -> tuple[DiagnosisProblem, list[Fin
 def _faults(wide: Fitted, zones: tuple[DeadZone, ...]) -> Iterator[Finding]:
     """State what is wrong with the samples: dead zones that are known, and what else is found."""
     dataset, operating_point, _ = wide
-    others = (check for check in CHECKS if check.id != TorqueDeadZone.id)
+    others = (check for check in SAMPLE_CHECKS if check.id != TorqueDeadZone.id)
     found: list[tuple[SampleCheck | Cause, tuple[SampleFinding, ...]]] = [
         *((check, check.examine(dataset, operating_point)) for check in others),
         (TorqueDeadZone(), zone_findings(dataset, operating_point, zones)),
@@ -127,7 +125,7 @@ def _refined(zone: DeadZone, half: float, deviation: float) -> DeadZone | None:
 
     Where torques lack nothing, zeros are those of lost samples.
     """
-    if deviation < zone.deviation and half < SAMPLE_CHECKS.dead_clearness * deviation:
+    if deviation < zone.deviation and half < thresholds.SAMPLE_CHECKS.dead_clearness * deviation:
         return None
     counted, fitted = zone.deviation**-2, deviation**-2
     mean = (counted * zone.half + fitted * half) / (counted + fitted)
