@@ -16,6 +16,8 @@ from ..robot.model import RobotModel
 from .condition import effort_scale
 from .resample import effort_of
 
+EVEN = 0.5
+"""Probability at which nothing tells whether there is a zone."""
 _ROWS = 1 << 16
 """Samples that are read at a time."""
 
@@ -30,22 +32,28 @@ class DeadZone:
     half: float
     deviation: float
     """Half of its width and its deviation, N m or N."""
-    shrinks: bool
-    """Whether it takes as much from what it passes."""
+    shortfall: float
+    """What it takes from what it passes, N m or N: nothing, as much, or half as much on average where the
+    channel cuts off what is below its step."""
     zeros: int
     share: float
     """Samples in motion that read zero, and their share."""
     p_value: float
 
+    @property
+    def is_known(self) -> bool:
+        """Tell whether there is evidence that the channel has it."""
+        return self.p_value < EVEN
+
     def error(self, torque: Samples) -> Samples:
         """Give what the channel adds to a torque."""
-        taken = np.clip(torque, -self.half, self.half) if self.shrinks else torque
-        return np.asarray(-np.where(self.shrinks | (np.abs(torque) < self.half), taken, 0.0))
+        taken = np.where(np.abs(torque) < self.half, torque, np.copysign(self.shortfall, torque))
+        return np.asarray(-taken)
 
     @property
-    def shortfall(self) -> float:
-        """Give by how much torques outside of the zone are too small, N m or N."""
-        return self.half if self.shrinks else 0.0
+    def steps(self) -> bool:
+        """Tell whether the channel cuts off what is below its step, which is half of the zone's width."""
+        return 0.0 < self.shortfall < self.half
 
 
 def zones_of(zones: Sequence[DeadZone], log: int) -> list[DeadZone]:

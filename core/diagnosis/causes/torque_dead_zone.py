@@ -3,7 +3,8 @@
 Noise hardly ever gives one value twice, and rounding gives its neighbours as often. So a zero that occurs far
 more often than any other value next to it, while the joint moves, is not measured. A recorder that writes
 zero where it has nothing does so next to torques of any size, a dead zone next to small ones. Torques are as
-dense within the zone as beside it: as many nonzero ones as there are zeros fill as wide a range.
+dense within the zone as beside it: as many nonzero ones as there are zeros fill as wide a range. A channel
+that cuts off what is below its step, as conversion to an integer does, has a zone of one step to either side.
 """
 
 from collections.abc import Sequence
@@ -12,17 +13,16 @@ from itertools import product
 
 import numpy as np
 
-from ...arrays import JointSeries, Samples
+from ...arrays import JointSeries, SampleMask, Samples
 from ...dynamics.prediction import Prediction
 from ...numerics.distributions import poisson_at_least
 from ...numerics.marked_runs import marked_runs
 from ...robot.joint_units import joint_unit
-from ...signals.condition import Motion
 from ...signals.dead_zone import DeadZone
 from ...signals.resample import effort_of
 from ..dataset.dataset import Dataset
 from ..thresholds.dataset import ROWS, SAMPLE_CHECKS
-from .protocol import Quantity
+from .protocol import Quantity, number_text
 from .sample_check import SampleCheck, SampleFinding, share_of_residual
 
 
@@ -58,11 +58,7 @@ def dead_zones(dataset: Dataset) -> tuple[DeadZone, ...]:
 
 def _zone(dataset: Dataset, number: int, joint: int) -> DeadZone | None:
     """Find the dead zone of a channel in one log."""
-    motion = dataset.motions[number]
-    time, effort = _efforts(motion, joint)
-    own = dataset.log == number
-    speed = np.interp(time, dataset.time[own], np.abs(dataset.state.velocity[own, joint]))
-    moving = speed > motion.recipe.still_speed[joint]
+    effort, moving = logged_efforts(dataset, number, joint)
     zero = moving & (effort == 0.0)
     zeros, others = int(zero.sum()), effort[moving & (effort != 0.0)]
     runs = marked_runs(zero)
@@ -87,31 +83,45 @@ def _zone(dataset: Dataset, number: int, joint: int) -> DeadZone | None:
     # The least of torques that lie so densely is one distance off the edge, by the exponential law.
     deviation = float(np.hypot(scatter, next_width - width)) if shrinks else width / zeros
     share = zeros / (zeros + len(others))
-    return DeadZone(number, joint, half, deviation, shrinks, zeros, share, max(p_value, 1e-300))
+    shortfall = half if shrinks else 0.0
+    return DeadZone(number, joint, half, deviation, shortfall, zeros, share, max(p_value, 1e-300))
 
 
-def _efforts(motion: Motion, joint: int) -> tuple[Samples, Samples]:
-    """Give stamps and torques of a joint as they were logged, over the log's beginning."""
-    rows = motion.log.source.rows(0, min(motion.log.source.samples, int(ROWS.seconds * motion.log.rate_hz)))
-    return rows.time, effort_of(rows)[:, joint] * motion.effort_scale[joint]
+def logged_efforts(dataset: Dataset, number: int, joint: int) -> tuple[Samples, SampleMask]:
+    """Give a joint's torques in a log as they were logged, over its beginning, and mark where it moves."""
+    motion, own = dataset.motions[number], dataset.log == number
+    log = motion.log
+    rows = log.source.rows(0, min(log.source.samples, int(ROWS.seconds * log.rate_hz)))
+    speed = np.interp(rows.time, dataset.time[own], np.abs(dataset.state.velocity[own, joint]))
+    return effort_of(rows)[:, joint] * motion.effort_scale[joint], speed > motion.recipe.still_speed[joint]
 
 
 def _finding(dataset: Dataset, operating_point: Prediction, zone: DeadZone) -> SampleFinding:
     joint = zone.joint + 1
     unit = joint_unit(dataset.robot, joint, "N m")
     size = Quantity("half_width", joint, unit, zone.half, zone.deviation)
-    larger = "and larger ones too little by as much" if zone.shrinks else "and larger ones what they are"
     return SampleFinding(
         site=(joint,),
         quantities=(size,),
         statement=(
-            f"Dead zone of torque channel {joint}: torques below {size.text} read zero, {larger}; "
-            f"{zone.zeros} samples in motion, {100.0 * zone.share:.2g} %, are exactly zero"
+            f"{_said(zone, size)}; {zone.zeros} samples in motion, {100.0 * zone.share:.2g} %, "
+            "are exactly zero"
         ),
         statistic=float(zone.zeros),
         p_value=zone.p_value,
         residual_share=share_of_residual(dataset, operating_point, _added(dataset, operating_point, zone)),
     )
+
+
+def _said(zone: DeadZone, size: Quantity) -> str:
+    """Say what the channel does with small torques and with larger ones."""
+    channel, step = f"orque channel {size.joint}", f"{number_text(size.value, 3)} {size.unit}"
+    if zone.steps and zone.is_known:
+        return f"T{channel} cuts off what is below its step of {step}, half a step on average"
+    if zone.steps:
+        return f"T{channel} may cut off what is below its step of {step}: the motion does not tell"
+    larger = "too little by as much" if zone.shortfall else "what they are"
+    return f"Dead zone of t{channel}: torques below {size.text} read zero, and larger ones {larger}"
 
 
 def _added(dataset: Dataset, operating_point: Prediction, zone: DeadZone) -> JointSeries:

@@ -56,9 +56,10 @@ def beside_dead_zones(findings: Sequence[Finding], *, restored: bool) -> list[Fi
 
     What the channel keeps back is a torque of the load and of the direction of motion, as friction is, and
     comes and goes, as contacts do. A transient cause acts on all joints before its own. A gain is one against
-    the other joints: on which of them the torque is too small no log tells.
+    the other joints: on which of them the torque is too small no log tells. A channel that may have a zone
+    limits all findings on its joint.
     """
-    zones = {} if restored else _zones(findings)
+    zones = _zones(findings, restored=restored)
 
     def limited(finding: Finding) -> Finding:
         reach = zones if finding.cause == TorqueGain.id else _reach(finding)
@@ -68,9 +69,11 @@ def beside_dead_zones(findings: Sequence[Finding], *, restored: bool) -> list[Fi
     return [limited(finding) for finding in findings]
 
 
-def _zones(findings: Sequence[Finding]) -> dict[int, float]:
-    """Give, by joint, the share of the residual that its dead zone explains."""
-    return {one.joints[0]: one.explained_fraction for one in findings if one.cause == TorqueDeadZone.id}
+def _zones(findings: Sequence[Finding], *, restored: bool) -> dict[int, float]:
+    """Give, by joint, the share of the residual that a dead zone explains which stays; all by a doubtful one."""
+    zones = [one for one in findings if one.cause == TorqueDeadZone.id]
+    known = {} if restored else {one.joints[0]: one.explained_fraction for one in zones}
+    return known | {one.joints[0]: np.inf for one in zones if one.confidence <= CONFIDENCE.doubtful}
 
 
 def _reach(finding: Finding) -> Sequence[int]:

@@ -4,31 +4,28 @@ Samples are checked at a wide band. What a dead zone takes from a torque is then
 torques are too small, the model tells better than the zeros do.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
-
-import numpy as np
 
 from ...signals.dead_zone import DeadZone
 from ..bandwidth import Fitted, limit_bandwidth
 from ..causes.external_contact import ExternalContact
 from ..causes.protocol import Cause
-from ..causes.registry import CAUSES, SAMPLE_CHECKS
+from ..causes.registry import SAMPLE_CHECKS
 from ..causes.sample_check import SampleCheck, SampleFinding
 from ..causes.torque_dead_zone import TorqueDeadZone, dead_zones, zone_findings
-from ..dataset.dataset import Dataset, build_dataset, torque_sign
+from ..dataset.dataset import Dataset, build_dataset
 from ..dataset.refusals import refuse_too_little, refuse_unjudged
 from ..problem import DiagnosisProblem
-from ..regression.gls import fit
-from ..regression.rows import Columns, append_columns
 from ..result import Finding
 from ..search.fitter import HypothesisFitter, hypothesis_fitter
-from ..search.hypothesis import Hypothesis
-from ..thresholds import dataset as thresholds
+from ..search.residuals import residual
 from .clipped_channel import ClippedChannel, clipped_channels
 from .contact_at_rest import contacts_at_rest
+from .cut_torque import cut_channels
 from .findings import sample_finding
 from .holdout_outliers import Explained, with_typical_holdout
+from .zone_width import refined_zones
 
 Limited = tuple[Fitted, Dataset, Explained]
 """A fit on a wide band, the data set of the band that noise of the positions leaves, and the fit there."""
@@ -43,16 +40,30 @@ def check_samples(problem: DiagnosisProblem) -> tuple[DiagnosisProblem, list[Fin
         If the logs hold too little motion for a fit.
     """
     wide, dataset, plain = _limited(problem)
-    zones = dead_zones(wide[0])
+    zones = _zones(problem, wide[0], dataset, plain)
     # A reference was fitted to torques as they were recorded, whose channels may have had the same zones.
-    if zones and problem.reference is None:
-        zones = _refined_zones(zones, _limited(replace(problem, zones=zones)))
-        problem = replace(problem, zones=zones)
-        _, dataset, plain = _limited(problem) if zones else (wide, dataset, plain)
+    known = tuple(zone for zone in zones if zone.is_known)
+    if known and problem.reference is None:
+        problem = replace(problem, zones=known)
+        _, dataset, plain = _limited(problem)
     fitter = replace(plain[0], dataset=dataset)
     typical = with_typical_holdout(dataset, plain, lambda other: _plain_fit(fitter.with_dataset(other)))
     found = fitter if typical is dataset else fitter.with_dataset(typical)
     return problem, [*_faults(wide, zones)], found
+
+
+def _zones(
+    problem: DiagnosisProblem, wide: Dataset, dataset: Dataset, plain: Explained
+) -> tuple[DeadZone, ...]:
+    """Find dead zones and channels that cut off torques, as wide as zeros and model have them."""
+    dead = dead_zones(wide)
+    known = {(zone.log, zone.joint) for zone in dead}
+    cut = [zone for zone in cut_channels(dataset, residual(*plain)) if (zone.log, zone.joint) not in known]
+    zones = (*dead, *cut)
+    if not zones:
+        return ()
+    _, restored, explained = _limited(replace(problem, zones=zones))
+    return refined_zones(zones, restored, explained)
 
 
 def _faults(wide: Fitted, zones: tuple[DeadZone, ...]) -> Iterator[Finding]:
@@ -78,58 +89,6 @@ def dataset_of(problem: DiagnosisProblem, width: float) -> Dataset:
         width=width,
         zones=problem.zones,
     )
-
-
-def _refined_zones(zones: tuple[DeadZone, ...], limited: Limited) -> tuple[DeadZone, ...]:
-    """Give the zones as wide as zeros and model have them; without those that the model denies."""
-    shrinking = [zone for zone in zones if zone.shrinks]
-    widths = _fitted_widths(shrinking, limited) if shrinking else []
-    refined = (_refined(zone, *width) for zone, width in zip(shrinking, widths, strict=True))
-    others = (zone for zone in zones if not zone.shrinks)
-    return (*others, *(zone for zone in refined if zone is not None))
-
-
-def _fitted_widths(zones: Sequence[DeadZone], limited: Limited) -> list[tuple[float, float]]:
-    """Fit to the model by how much the torques outside of dead zones are too small, beside what was added.
-
-    What one lacks has the sign of the torque, and other causes depend on that, too. All that may act on the
-    joint is fitted beside it. Gives half widths and deviations, N m or N.
-    """
-    _, dataset, (fitter, found) = limited
-    beside = _causes_on(fitter, found, {zone.joint + 1 for zone in zones})
-    rows = append_columns(fitter.rows.fitted, [*beside, *_sign_columns(zones, dataset)])
-    fitted = fit(rows, ordinary=fitter.ordinary_noise)
-    lacking = fitted.values[-len(zones) :]
-    deviations = np.sqrt(np.diag(fitted.covariance)[-len(zones) :])
-    told = zip(zones, lacking, deviations, strict=True)
-    return [(zone.half - float(more), float(deviation)) for zone, more, deviation in told]
-
-
-def _sign_columns(zones: Sequence[DeadZone], dataset: Dataset) -> list[Columns]:
-    signs = torque_sign(dataset)
-    own = [(dataset.log == zone.log)[:, None] for zone in zones]
-    return [{zone.joint: signs[:, [zone.joint]] * rows} for zone, rows in zip(zones, own, strict=True)]
-
-
-def _causes_on(fitter: HypothesisFitter, found: Hypothesis, joints: set[int]) -> list[Columns]:
-    """Give the columns of all causes that may act on some joints (from 1) all the time, each at its best."""
-    lasting = [cause for cause in CAUSES if not cause.traits.transient]
-    searching = fitter.with_causes(lasting, None).linearised_at(found)
-    scanned = (scored for scored in searching.scan(found) if scored.identifiable)
-    sites = {(joint,) for joint in joints}
-    return searching.columns([scored.candidate for scored in scanned if scored.candidate.site in sites])
-
-
-def _refined(zone: DeadZone, half: float, deviation: float) -> DeadZone | None:
-    """Weigh the width that zeros show with the model's, N m or N; None where the model clearly has none.
-
-    Where torques lack nothing, zeros are those of lost samples.
-    """
-    if deviation < zone.deviation and half < thresholds.SAMPLE_CHECKS.dead_clearness * deviation:
-        return None
-    counted, fitted = zone.deviation**-2, deviation**-2
-    mean = (counted * zone.half + fitted * half) / (counted + fitted)
-    return replace(zone, half=mean, deviation=(counted + fitted) ** -0.5)
 
 
 def _limited(problem: DiagnosisProblem) -> Limited:

@@ -123,6 +123,20 @@ class SampleChecks:
     """Share of the width without values beside zero from which larger torques are taken to be unchanged."""
     dead_clearness: float = 3.0
     """Deviations from zero from which on torques outside of a dead zone are too small by the model."""
+    cut_levels: int = 3
+    """Sizes from which a channel is taken to have steps, zero among them."""
+    cut_exactness: float = 0.1
+    """Share of a step that a value may lie off its multiples: a log holds rounded numbers."""
+    cut_zeros: float = 1.4
+    """Ratio of zeros to the values one step off, on average, from which a channel may cut off what is below
+    its step: rounding gives 1 and cutting 2."""
+    cut_scatter: float = 1.2247
+    """Deviation of that ratio over one passage through zero and two beside it, each of which lasts as long as
+    chance has it, the square root of 1 + 1/2. Source: the exponential law."""
+    cut_chance: float = 1e-3
+    """Probability of so many zeros by rounding, below which torques may be cut off though no model tells."""
+    cut_least: float = 0.5
+    """Share of half a step by which torques have to be too small, or less than as much again too small."""
     rounding_share: float = 0.6
     """Share of a joint's residual that rounding has to account for. Good encoders account for a half."""
     rounding_of_torque: float = 0.006

@@ -23,7 +23,7 @@ each_law = pytest.mark.parametrize("shrinks", LAWS, ids=["shrinks", "passes"])
 
 
 def zone(*, shrinks: bool) -> DeadZone:
-    return DeadZone(0, 1, HALF, 0.01, shrinks, zeros=100, share=0.1, p_value=0.0)
+    return DeadZone(0, 1, HALF, 0.01, HALF if shrinks else 0.0, zeros=100, share=0.1, p_value=0.0)
 
 
 def read_torque(*, shrinks: bool) -> np.ndarray:

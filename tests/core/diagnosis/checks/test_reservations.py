@@ -50,6 +50,14 @@ def test_what_a_dead_zone_accounts_for_is_named_with_reserve(cause, site, zone, 
     assert limited.confidence == pytest.approx(0.5 if doubtful else SURE)
 
 
+@pytest.mark.parametrize("restored", [True, False])
+def test_beside_a_zone_that_a_channel_may_have_findings_on_its_joint_are_doubtful(restored):
+    own, other = (found(FrictionLoadDependent(), (joint,), 0.9) for joint in (2, 3))
+    zone = replace(found(TorqueDeadZone(), (2,), 0.1), confidence=CONFIDENCE.doubtful)
+    limited = beside_dead_zones([own, other, zone], restored=restored)
+    assert [one.confidence for one in limited] == pytest.approx([0.5, SURE, 0.5])
+
+
 GAINED = 0.2
 """Mean logarithm of the joints' errors that the finding of the next test gains."""
 

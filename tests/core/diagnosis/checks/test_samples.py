@@ -32,7 +32,7 @@ def problem(*logs: JointLog) -> DiagnosisProblem:
 def test_the_torque_in_which_causes_are_searched_is_the_one_that_acted(words):
     spoilt = with_torque(ZONES[words][0])
     asked, faults, fitter = check_samples(problem(spoilt))
-    assert [(zone.joint, zone.shrinks) for zone in asked.zones] == [(0, words == SHRINKS)]
+    assert [(zone.joint, zone.shortfall > 0.0) for zone in asked.zones] == [(0, words == SHRINKS)]
     assert [one.cause for one in faults] == ["torque_dead_zone"]
     found, plain = fitter.dataset, check_samples(problem(recorded()))[2].dataset
     both = found.usable & plain.usable
@@ -111,7 +111,37 @@ def lost_at_small_torques() -> JointLog:
 
 def test_zeros_beside_which_the_model_misses_no_torque_are_no_dead_zone():
     log = lost_at_small_torques()
-    assert [zone.shrinks for zone in dead_zones(looked_at(log))] == [True]
+    (zone,) = dead_zones(looked_at(log))
+    assert zone.shortfall == zone.half
     asked, faults, _ = check_samples(problem(log))
+    assert asked.zones == ()
+    assert faults == []
+
+
+STEP = 2.0
+
+
+def cut_off(torque: np.ndarray) -> np.ndarray:
+    return STEP * np.trunc(torque / STEP)
+
+
+def test_a_channel_that_cuts_off_what_is_below_its_step_gets_half_a_step_back():
+    asked, (fault,), _ = check_samples(problem(with_torque(cut_off)))
+    (zone,) = asked.zones
+    assert (zone.joint, zone.half, zone.shortfall) == (0, pytest.approx(STEP), pytest.approx(0.5 * STEP))
+    assert fault.confidence > 0.9
+    assert "cuts off what is below its step of 2 N m" in fault.statement
+
+
+def test_steps_that_a_file_holds_with_few_digits_are_the_same_steps():
+    (zone,) = check_samples(problem(with_torque(lambda torque: np.round(0.7071 * cut_off(torque), 2))))[
+        0
+    ].zones
+    assert zone.half == pytest.approx(0.7071 * STEP, rel=1e-3)
+
+
+@pytest.mark.parametrize("change", [np.round, np.floor], ids=["rounded", "cut downward"])
+def test_torques_that_err_to_either_side_are_cut_off_nowhere(change):
+    asked, faults, _ = check_samples(problem(with_torque(lambda torque: STEP * change(torque / STEP))))
     assert asked.zones == ()
     assert faults == []
