@@ -256,16 +256,16 @@ def _explain(
     settled: _Settled, before: Identification, found: "Diagnosis", reference: Reference | None, tell: Progress
 ) -> "Extension":
     """Extend the model by the causes that were found, and measure what that gains."""
-    from .diagnosis.checks.reservations import with_reservations
+    from .diagnosis.checks.reservations import SetupDoubts, with_reservations
     from .extension import cure, extend, measure, reserved, result
 
     task, problem, options = settled.task, settled.fit.problem, settled.task.options
     last = scaled_progress(tell, 0.8, 0.15)
     conflicts, doubted = settled.conflicts, bool(contradictions(before))
-    rescaled, promising = conflicts.estimates_a_factor, conflicts.promising
-    found = with_reservations(
-        found, open_conflict=conflicts.is_open, doubted=doubted, rescaled=rescaled, promising=promising
+    doubts = SetupDoubts(
+        conflicts.is_open, conflicts.estimates_a_factor, conflicts.promising, conflicts.confidence
     )
+    found = with_reservations(found, doubts, doubted=doubted)
     plain = problem if reference is None else replace(problem, prior=reference.prior)
     found, proof = extend.verified(found, options, plain, lambda: tell("verify", 0.78))
     parts = before.observation.parts(problem.held_out)

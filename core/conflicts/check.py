@@ -42,6 +42,11 @@ class Conflicts:
         )
 
     @property
+    def confidence(self) -> float:
+        """Give the probability of the corrections that were applied; 1 where none was."""
+        return min((step.confidence for step in self.found if self.applied), default=1.0)
+
+    @property
     def estimates_a_factor(self) -> bool:
         """Tell whether a torque was multiplied by a factor that is an estimate."""
         from .kinds.gear_ratio import GearRatio

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from ..diagnosis.checks.reservations import with_reservations
+from ..diagnosis.checks.reservations import SetupDoubts, with_reservations
 from ..identification.doubts import has_impossible_joint
 from .result import Extension
 
@@ -11,5 +11,5 @@ def reserved(extension: Extension) -> Extension:
     """Limit what is found where the last model, extended or not, fails by its consistency."""
     if not has_impossible_joint(extension.after or extension.before):
         return extension
-    found = with_reservations(extension.diagnosis, open_conflict=True, doubted=True)
+    found = with_reservations(extension.diagnosis, SetupDoubts(is_open=True), doubted=True)
     return replace(extension, diagnosis=found)

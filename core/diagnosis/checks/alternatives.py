@@ -43,6 +43,8 @@ class Comparison:
     """Its BIC difference."""
     margin: float
     """Its BIC difference less that of the best alternative: another cause, or the same one elsewhere."""
+    is_refuted: bool
+    """Whether an alternative fits better by more than decides between the two."""
     ambiguous: tuple[Alternative, ...]
     refuted: tuple[Alternative, ...]
     without: Hypothesis
@@ -106,7 +108,7 @@ def _is_inadmissible(state: SearchState, index: int) -> bool:
 def _is_surrogate(state: SearchState, own: Comparison, *, alone: bool) -> bool:
     """Tell whether another candidate or pattern should stand for a member, or none."""
     return (
-        (own.margin < -SELECTION.undecided and not alone)
+        (own.is_refuted and not alone)
         or _reduces_no_error(state.fitter, state.chosen, own, alone=alone)
         or _pattern_is_better(own)
     )
@@ -173,7 +175,7 @@ def compare_member(state: SearchState, index: int, own: Hypothesis) -> Compariso
     """
     fitter, chosen = state.fitter, state.chosen
     member, without = chosen.members[index], fitter.fit_without_each(chosen)[index]
-    ambiguous, refuted, margin = [], [], np.inf
+    ambiguous, refuted, margin, is_refuted = [], [], np.inf, False
     own_gain, own_ratio = bic_gain(without, own), likelihood_ratio(without, own)
     trials = _not_left(fitter, own, _trials(state, without))
     for trial in trials:
@@ -183,11 +185,13 @@ def compare_member(state: SearchState, index: int, own: Hypothesis) -> Compariso
         why = _objection(fitter, without, trial)
         settled = _at_its_own_point(state, trial, why)
         ratio, behind = likelihood_ratio(without, settled), own_gain - bic_gain(without, settled)
+        undecided = _undecided_bound(member, other, own_ratio)
         if not why:
             margin = min(margin, behind)
+            is_refuted = is_refuted or behind < -undecided
         # An alternative that explains no more than position noise might refutes no finding.
         like = _noise_statistic(fitter, own, (member, other))
-        if not why and behind < max(like, _undecided_bound(member, other, own_ratio)):
+        if not why and behind < max(like, undecided):
             ambiguous.append(_undecided_alternative(member, other, ratio, behind, like))
         elif ratio > ALTERNATIVES.least_ratio_listed * own_ratio:
             refuted.append(_refuted_alternative(other, ratio, own_ratio, why))
@@ -197,6 +201,7 @@ def compare_member(state: SearchState, index: int, own: Hypothesis) -> Compariso
         own_ratio,
         own_gain,
         float(margin),
+        is_refuted,
         tuple(ambiguous),
         tuple(refuted),
         without,

@@ -5,7 +5,7 @@ more than half of a joint's torque, the likeliest small correction is seldom the
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,30 +15,39 @@ from ..result import Diagnosis, Evidence, Finding
 from ..thresholds.checks import CONFIDENCE, RESIDUAL, VERDICT
 
 
-def with_reservations(
-    found: Diagnosis, *, open_conflict: bool, doubted: bool, rescaled: bool = False, promising: float = 0.0
-) -> Diagnosis:
+@dataclass(frozen=True)
+class SetupDoubts:
+    """Hold what is in doubt about how robot and logs belong together."""
+
+    is_open: bool = False
+    """Whether they disagree in something that was not corrected."""
+    rescaled: bool = False
+    """Whether a torque was multiplied by an estimated factor. Gains are relative: whichever joint one is found
+    on, it may be the estimate's error."""
+    promising: float = 0.0
+    """By how much the mean logarithm of the joints' errors would fall under another set-up that is not clear
+    enough to be called wrong. Where all findings gain less, it is the better explanation."""
+    confidence: float = 1.0
+    """Probability of the corrections that were applied. No cause is surer than the set-up that it is found in."""
+
+
+def with_reservations(found: Diagnosis, setup: SetupDoubts, *, doubted: bool) -> Diagnosis:
     """Limit confidences and verdict.
 
     Parameters
     ----------
-    open_conflict
-        Whether robot and logs disagree in something that was not corrected.
     doubted
         Whether the identification contradicts the model, the logs or itself.
-    rescaled
-        Whether a torque was multiplied by an estimated factor. Gains are relative: whichever joint one is
-        found on, it may be the estimate's error.
-    promising
-        By how much the mean logarithm of the joints' errors would fall under another set-up that is not clear
-        enough to be called wrong. Where all findings gain less, it is the better explanation.
     """
-    failed = open_conflict or any(_joints_not_fitted(found))
+    failed = setup.is_open or any(_joints_not_fitted(found))
     findings = tuple(
-        as_doubtful(finding) if failed or (rescaled and finding.cause == TorqueGain.id) else finding
+        as_doubtful(finding) if failed or (setup.rescaled and finding.cause == TorqueGain.id) else finding
         for finding in found.findings
     )
-    findings = beside_another_setup(findings, promising)
+    findings = tuple(
+        _as_sure_as(setup.confidence, finding)
+        for finding in beside_another_setup(findings, setup.promising)
+    )
     claims_nothing = found.verdict == "nothing_found" and (failed or doubted)
     explains = any(finding.confidence > CONFIDENCE.doubtful for finding in findings)
     claims_too_much = found.verdict == "causes_found" and not explains
@@ -117,7 +126,11 @@ def _mean_log_gain(finding: Finding) -> float:
 
 def as_doubtful(finding: Finding) -> Finding:
     """Give a finding no more confidence than a doubtful one may have."""
-    return replace(finding, confidence=min(finding.confidence, CONFIDENCE.doubtful))
+    return _as_sure_as(CONFIDENCE.doubtful, finding)
+
+
+def _as_sure_as(most: float, finding: Finding) -> Finding:
+    return finding if finding.confidence <= most else replace(finding, confidence=most)
 
 
 def _joints_not_fitted(found: Diagnosis) -> Iterator[int]:

@@ -8,7 +8,7 @@ import pytest
 
 from tests.core.diagnosis.residual.worlds import EXAMPLE, world
 from tests.core.diagnosis.scenes import Effect, Scene, measured_arm
-from veritorque.core.diagnosis.checks.reservations import as_doubtful, with_reservations
+from veritorque.core.diagnosis.checks.reservations import SetupDoubts, as_doubtful, with_reservations
 from veritorque.core.diagnosis.diagnose import diagnose
 from veritorque.core.diagnosis.problem import DiagnosisProblem
 from veritorque.core.diagnosis.result import Diagnosis
@@ -56,10 +56,18 @@ def test_nothing_is_corrected_where_nothing_is_found():
 
 def test_causes_are_found_where_one_is_more_likely_right_than_not():
     found = diagnosed(hidden)
-    kept = with_reservations(found, open_conflict=False, doubted=False)
+    kept = with_reservations(found, SetupDoubts(), doubted=False)
     assert (kept.verdict, kept.findings) == ("causes_found", found.findings)
     doubtful = replace(found, findings=tuple(map(as_doubtful, found.findings)))
-    assert with_reservations(doubtful, open_conflict=False, doubted=False).verdict == "unexplained"
+    assert with_reservations(doubtful, SetupDoubts(), doubted=False).verdict == "unexplained"
+
+
+def test_no_cause_is_surer_than_the_set_up_that_it_is_found_in():
+    found = with_reservations(diagnosed(hidden), SetupDoubts(confidence=0.7), doubted=False)
+    assert [one.confidence for one in found.findings] == [0.7] * len(diagnosed(hidden).findings)
+    assert found.verdict == "causes_found"
+    guessed = with_reservations(diagnosed(hidden), SetupDoubts(confidence=0.5), doubted=False)
+    assert guessed.verdict == "unexplained"
 
 
 def test_a_finding_brings_everything_that_decided():

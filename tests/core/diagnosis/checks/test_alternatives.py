@@ -54,6 +54,20 @@ def test_a_stopgap_beside_a_strong_effect_is_given_up_and_the_step_is_on_record(
     assert len(comparisons) == 1
 
 
+@pytest.mark.parametrize(("more", "names"), [(0.02, ["strong", "weak"]), (0.05, ["strong"])])
+def test_a_lead_that_columns_of_a_real_robot_may_give_does_not_decide_against_a_finding_either(more, names):
+    """Its alternative leads by more than 6 in either case, but by 2 or by 4 % of its likelihood ratio."""
+    near = wave_cause("near", {QUICKER: 1.0, SLOW: more})
+    hidden = measured_arm(wave_effect({QUICK: 0.6, QUICKER: 0.2, SLOW: 0.2 * more}))
+    fitter = fitter_of(hidden, (STRONG, WEAK, near))
+    left, _, comparisons = compared((fitter, nothing_found(fitter)), candidate(STRONG), candidate(WEAK))
+    assert left == names
+    assert all(one.margin < -6.0 for one in comparisons[1:])
+    assert [[other.cause for other in one.ambiguous] for one in comparisons[1:]] == [["near"]] * (
+        len(names) - 1
+    )
+
+
 @cache
 def a_wave_beside_one_that_ends() -> tuple[HypothesisFitter, Hypothesis]:
     """Add to the weak wave what its alternative has besides, but only on the rows that are fitted."""
