@@ -10,15 +10,15 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
 
-from ...arrays import Indices, Matrix, SquareMatrix, Vector
+from ...arrays import Vector
 from ..causes.protocol import number_text
 from ..residual.blocks import row_blocks
 from ..result import Evidence
 from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Hypothesis
 from ..thresholds.checks import BETWEEN_LOGS, BLOCK_SCATTER
+from .block_equations import BlockEquations, BlockSolution
 
 
 @dataclass(frozen=True)
@@ -45,19 +45,6 @@ class SizeInLog:
         )
 
 
-@dataclass(eq=False)
-class _Block:
-    """Sum up the normal equations of a block of rows: products of columns, and with what is left."""
-
-    gram: SquareMatrix
-    slope: Vector
-
-    def add(self, acting: Indices, columns: Matrix, left: Vector) -> None:
-        """Add rows of one joint."""
-        self.gram[np.ix_(acting, acting)] += columns.T @ columns
-        self.slope[acting] += columns.T @ left
-
-
 @dataclass(frozen=True, eq=False)
 class BetweenLogs:
     """Fit the columns of a hypothesis to each log by itself."""
@@ -82,12 +69,12 @@ class BetweenLogs:
                 yield SizeInLog(motion.log.name, *_size(blocks, weight))
 
     @cached_property
-    def _blocks(self) -> list[list[_Block]]:
+    def _blocks(self) -> list[list[BlockEquations]]:
         """Give the normal equations of every block of every log."""
         dataset = self.fitter.dataset
         block, width = row_blocks(dataset, BLOCK_SCATTER.blocks), len(self.chosen.fit.values)
         log = {int(number): int(own) for number, own in zip(block, dataset.log, strict=True)}
-        found = {number: _Block(np.zeros((width, width)), np.zeros(width)) for number in log}
+        found = {number: BlockEquations.empty(width) for number in log}
         fit = self.chosen.fit
         for rows, part, left in zip(self.fitter.rows.fitted, fit.joints, fit.left, strict=True):
             columns = part.nuisance.without_nuisance(part.columns)
@@ -99,14 +86,7 @@ class BetweenLogs:
         return [[found[number] for number, own in log.items() if own == place] for place in logs]
 
 
-def _size(blocks: Sequence[_Block], weight: Vector) -> tuple[float, float]:
+def _size(blocks: Sequence[BlockEquations], weight: Vector) -> tuple[float, float]:
     """Give one more than a log changes along some weights, and its deviation by the scatter of blocks."""
-    gram = np.sum([block.gram for block in blocks], axis=0)
-    slope = np.sum([block.slope for block in blocks], axis=0)
-    squares = np.diag(gram)
-    scale = np.sqrt(np.where(squares > 0.0, squares, 1.0))
-    factor = cho_factor(gram / np.outer(scale, scale) + BETWEEN_LOGS.ridge * np.eye(len(gram)))
-    change = cho_solve(factor, slope / scale) / scale
-    along = cho_solve(factor, weight / scale) / scale
-    moved = np.array([along @ (block.slope - block.gram @ change) for block in blocks])
-    return float(1.0 + weight @ change), float(np.sqrt(np.sum(moved**2) * len(moved) / (len(moved) - 1)))
+    solution = BlockSolution(blocks)
+    return float(1.0 + weight @ solution.change), float(solution.deviations(weight[:, None])[0])

@@ -22,13 +22,13 @@ class SetupDoubts:
     is_open: bool = False
     """Whether they disagree in something that was not corrected."""
     rescaled: bool = False
-    """Whether a torque was multiplied by an estimated factor. Gains are relative: whichever joint one is found
-    on, it may be the estimate's error."""
+    """Whether a torque was multiplied by an estimated factor. Gains are relative: whichever joint one is
+    found on, it may be the estimate's error."""
     promising: float = 0.0
     """By how much the mean logarithm of the joints' errors would fall under another set-up that is not clear
     enough to be called wrong. Where all findings gain less, it is the better explanation."""
     confidence: float = 1.0
-    """Probability of the corrections that were applied. No cause is surer than the set-up that it is found in."""
+    """Probability of the corrections that were applied. No cause is surer than its set-up."""
 
 
 def with_reservations(found: Diagnosis, setup: SetupDoubts, *, doubted: bool) -> Diagnosis:
@@ -79,7 +79,7 @@ def beside_dead_zones(findings: Sequence[Finding], *, restored: bool) -> list[Fi
 
 
 def _zones(findings: Sequence[Finding], *, restored: bool) -> dict[int, float]:
-    """Give, by joint, the share of the residual that a dead zone explains which stays; all by a doubtful one."""
+    """Give, by joint, the share of the residual that a dead zone explains; all of it by a doubtful one."""
     zones = [one for one in findings if one.cause == TorqueDeadZone.id]
     known = {} if restored else {one.joints[0]: one.explained_fraction for one in zones}
     return known | {one.joints[0]: np.inf for one in zones if one.confidence <= CONFIDENCE.doubtful}

@@ -28,6 +28,7 @@ from ..search.hypothesis import Candidate, Hypothesis
 from ..search.likelihood_ratio import likelihood_ratio_by_joint, log_p_of
 from ..search.lr_bound import ratio_without_effect
 from ..thresholds.checks import STRUCTURE_LEFT
+from .between_joints import CONFIRMED, SizeByJoint, sizes_by_joint
 
 VARIANCES = np.geomspace(1e-4, 1e4, 40)
 """Variances of the coefficients that are tried, over that at which functions weigh as much as noise."""
@@ -180,11 +181,13 @@ class StructureTest:
     """Structure on all joints that have too much of it, over what the finding explains on all."""
     log10_p: float
     """Decimal logarithm of the finding's p-value by the other joints."""
+    by_joint: SizeByJoint | None = None
+    """Its size by each joint, where joints confirm it."""
 
     @property
     def doubts(self) -> bool:
-        """Tell whether the other joints do not show the finding, or much more is left than that."""
-        return _is_too_much(self.share, self.log10_p)
+        """Tell whether other joints do not show it, or much more is left, and no joints confirm it."""
+        return self.by_joint is None and _is_too_much(self.share, self.log10_p)
 
     @property
     def evidence(self) -> tuple[Evidence, ...]:
@@ -204,6 +207,7 @@ class StructureTest:
                 LOG_P,
                 self.log10_p,
             ),
+            *(() if self.by_joint is None else (self.by_joint.evidence,)),
         )
 
 
@@ -232,7 +236,9 @@ def structure_test(
     clean = whole_gain - sum(gained[joint] for joint in spoilt)
     share = sum(left.on(joint).statistic for joint in spoilt) / whole_gain
     log10_p = log_p_of(fitter, whole, index, min(clean, statistic)) * float(np.log10(np.e))
-    return StructureTest(worst + 1, left.on(worst).of, share, log10_p)
+    by_joint = sizes_by_joint(fitter, whole, index) if _is_too_much(share, log10_p) else None
+    confirmed = by_joint if by_joint is not None and by_joint.is_confirmed else None
+    return StructureTest(worst + 1, left.on(worst).of, share, log10_p, confirmed)
 
 
 def _gained(left: StructureLeft, without: Hypothesis, member: Candidate) -> dict[int, float]:
@@ -245,7 +251,9 @@ def _gained(left: StructureLeft, without: Hypothesis, member: Candidate) -> dict
 def nothing_beside_structure(findings: Sequence[Finding]) -> bool:
     """Tell whether there are findings, and too much structure is left beside each."""
     told = [{one.statistic: one.value for one in finding.evidence} for finding in findings]
-    return bool(told) and all(SHARE in one and _is_too_much(one[SHARE], one[LOG_P]) for one in told)
+    return bool(told) and all(
+        SHARE in one and CONFIRMED not in one and _is_too_much(one[SHARE], one[LOG_P]) for one in told
+    )
 
 
 def _is_too_much(share: float, log10_p: float) -> bool:

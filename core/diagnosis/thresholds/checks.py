@@ -100,6 +100,9 @@ class BlockScatter:
     causes of simulated logs, of strength 0.3 and 1, all but two of backlash have at most 7e-4, most below
     1e-9. On measured robots all that was changed on purpose has at most 7e-7; what was named besides and
     depends on the change has 2e-3 and 7e-3, springs of joints that gain nothing held out 0.05 to 1."""
+    ridge: float = 1e-6
+    """Share of a column's square that keeps the equations of some blocks regular: what they do not show stays.
+    Set by hand, above rounding of the products and below what any log shows."""
 
 
 @dataclass(frozen=True)
@@ -111,9 +114,18 @@ class BetweenLogs:
     and twice as much. Set by hand, between that and one."""
     clearness: float = 3.0
     """Deviations by which it has to be smaller. Source: the usual level of 0.1 %."""
-    ridge: float = 1e-6
-    """Share of a column's square that keeps a log's equations regular: what the log does not show stays.
-    Set by hand, above rounding of the products and below what any log shows."""
+
+
+@dataclass(frozen=True)
+class BetweenJoints:
+    """Decide whether joints confirm a finding, each by its own torque. Set by hand."""
+
+    clearness: float = 3.0
+    """Deviations from zero from which on a joint shows it."""
+    joints: int = 3
+    """Joints that have to show it: two agree by chance more easily."""
+    level: float = 0.01
+    """Probability of sizes so different, below which joints do not agree."""
 
 
 @dataclass(frozen=True)
@@ -164,7 +176,7 @@ class StructureLeft:
     share_of_all: float = 0.5
     """The same of all such joints over all that a finding acts on, beyond which it is doubtful whatever other
     joints show. Source: delays of a measured Panda and TX40 have 0.18 and 0.07, false names that other joints
-    seem to show 0.6 to 1.3. Two errors of the Panda's description, 1.2 and 2, are lost to it."""
+    seem to show 0.6 to 1.3. Two errors of the Panda's description have 1.2 and 2: joints confirm them."""
     level: float = 1e-7
     """Probability, corrected for all that was scanned, above which the other joints do not show a finding:
     that at which causes enter beside others. Set by hand."""
@@ -230,6 +242,7 @@ class Command:
 
 
 COMMAND, BLOCK_SCATTER, BETWEEN_LOGS = Command(), BlockScatter(), BetweenLogs()
+BETWEEN_JOINTS = BetweenJoints()
 POSITION_NOISE = PositionNoise()
 SPRING_RESONANCE, STRUCTURE_LEFT = SpringResonance(), StructureLeft()
 RESIDUAL, SEPARATION, AT_REST, MOTION = Residual(), Separation(), AtRest(), Motion()
