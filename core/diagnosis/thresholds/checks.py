@@ -101,8 +101,8 @@ class BlockScatter:
     1e-9. On measured robots all that was changed on purpose has at most 7e-7; what was named besides and
     depends on the change has 2e-3 and 7e-3, springs of joints that gain nothing held out 0.05 to 1."""
     ridge: float = 1e-6
-    """Share of a column's square that keeps the equations of some blocks regular: what they do not show stays.
-    Set by hand, above rounding of the products and below what any log shows."""
+    """Share of a column's square that keeps the equations of some blocks regular: what they do not show
+    stays. Set by hand, above rounding of the products and below what any log shows."""
 
 
 @dataclass(frozen=True)
