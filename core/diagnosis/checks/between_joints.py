@@ -64,6 +64,12 @@ class SizeByJoint:
         )
 
 
+def confirming(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> SizeByJoint | None:
+    """Give a member's size by each joint where joints confirm it."""
+    found = sizes_by_joint(fitter, chosen, index)
+    return found if found is not None and found.is_confirmed else None
+
+
 def sizes_by_joint(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> SizeByJoint | None:
     """Fit a member to each joint by itself, beside all other columns; None where too few could confirm it."""
     fit, own = chosen.fit, chosen.columns_of(index)

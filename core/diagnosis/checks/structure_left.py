@@ -12,7 +12,7 @@ discrepancy as a Gaussian process; Ramsey, J. R. Stat. Soc. B 31(2), 1969, on te
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 
@@ -28,7 +28,7 @@ from ..search.hypothesis import Candidate, Hypothesis
 from ..search.likelihood_ratio import likelihood_ratio_by_joint, log_p_of
 from ..search.lr_bound import ratio_without_effect
 from ..thresholds.checks import STRUCTURE_LEFT
-from .between_joints import CONFIRMED, SizeByJoint, sizes_by_joint
+from .between_joints import CONFIRMED, SizeByJoint, confirming
 
 VARIANCES = np.geomspace(1e-4, 1e4, 40)
 """Variances of the coefficients that are tried, over that at which functions weigh as much as noise."""
@@ -236,9 +236,8 @@ def structure_test(
     clean = whole_gain - sum(gained[joint] for joint in spoilt)
     share = sum(left.on(joint).statistic for joint in spoilt) / whole_gain
     log10_p = log_p_of(fitter, whole, index, min(clean, statistic)) * float(np.log10(np.e))
-    by_joint = sizes_by_joint(fitter, whole, index) if _is_too_much(share, log10_p) else None
-    confirmed = by_joint if by_joint is not None and by_joint.is_confirmed else None
-    return StructureTest(worst + 1, left.on(worst).of, share, log10_p, confirmed)
+    test = StructureTest(worst + 1, left.on(worst).of, share, log10_p)
+    return replace(test, by_joint=confirming(fitter, whole, index)) if test.doubts else test
 
 
 def _gained(left: StructureLeft, without: Hypothesis, member: Candidate) -> dict[int, float]:
