@@ -72,6 +72,17 @@ def share_of_residual(dataset: Dataset, operating_point: Prediction, gained: Joi
     return np.asarray(np.minimum(over_residual(dataset, operating_point, gained), 1.0))
 
 
+def followed_share(dataset: Dataset, operating_point: Prediction, added: JointSeries) -> JointVector:
+    """Give, per joint, the share of the residual's mean square that follows a known disturbance.
+
+    A fit takes up a part of it, so that a disturbance may be larger than the residual.
+    """
+    left, mask = torque_residual(dataset, operating_point), fitted_rows(dataset)
+    products = (left * added * mask).sum(axis=0)
+    sizes = (left**2 * mask).sum(axis=0) * (added**2 * mask).sum(axis=0)
+    return np.asarray(np.maximum(products, 0.0) ** 2 / np.maximum(sizes, 1e-300))
+
+
 def over_residual(dataset: Dataset, operating_point: Prediction, gained: JointSeries) -> JointVector:
     """Give, per joint, the mean square of a disturbance over the residual's."""
     left, mask = torque_residual(dataset, operating_point), fitted_rows(dataset)

@@ -13,7 +13,7 @@ from itertools import product
 
 import numpy as np
 
-from ...arrays import JointSeries, SampleMask, Samples
+from ...arrays import JointSeries, JointVector, SampleMask, Samples
 from ...dynamics.prediction import Prediction
 from ...numerics.distributions import poisson_at_least
 from ...numerics.marked_runs import marked_runs
@@ -23,7 +23,7 @@ from ...signals.resample import effort_of
 from ..dataset.dataset import Dataset
 from ..thresholds.dataset import ROWS, SAMPLE_CHECKS
 from .protocol import Quantity, number_text
-from .sample_check import SampleCheck, SampleFinding, share_of_residual
+from .sample_check import SampleCheck, SampleFinding, followed_share, share_of_residual
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class TorqueDeadZone(SampleCheck):
     title = "Dead zone of the torque channel"
     units = (("half_width", "N m"),)
     experiment = "slow motion through postures in which the torque changes its sign"
-    beyond_repair = "What the torque was where the channel reads zero is not in the log"
+    beyond_repair = "What the channel kept back of the torque is not in the log"
 
     def examine(self, dataset: Dataset, operating_point: Prediction) -> tuple[SampleFinding, ...]:
         """Count zeros of every channel while its joint moves."""
@@ -42,11 +42,21 @@ class TorqueDeadZone(SampleCheck):
 
 
 def zone_findings(
-    dataset: Dataset, operating_point: Prediction, zones: Sequence[DeadZone]
+    dataset: Dataset, operating_point: Prediction, zones: Sequence[DeadZone], *, stay: bool = False
 ) -> tuple[SampleFinding, ...]:
-    """State the widest zone of every channel, and the share of the residual that it accounts for."""
+    """State the widest zone of every channel, and the share of the residual that it accounts for.
+
+    Parameters
+    ----------
+    stay
+        Whether they stay in the torques: then all that a zone adds counts, also what a fit takes up.
+    """
     widest = {zone.joint: zone for zone in sorted(zones, key=lambda zone: zone.half)}
-    return tuple(_finding(dataset, operating_point, zone) for zone in widest.values())
+    share_of = share_of_residual if stay else followed_share
+    added = {zone: _added(dataset, operating_point, zone) for zone in widest.values()}
+    return tuple(
+        _finding(dataset, zone, share_of(dataset, operating_point, own)) for zone, own in added.items()
+    )
 
 
 def dead_zones(dataset: Dataset) -> tuple[DeadZone, ...]:
@@ -96,7 +106,7 @@ def logged_efforts(dataset: Dataset, number: int, joint: int) -> tuple[Samples, 
     return effort_of(rows)[:, joint] * motion.effort_scale[joint], speed > motion.recipe.still_speed[joint]
 
 
-def _finding(dataset: Dataset, operating_point: Prediction, zone: DeadZone) -> SampleFinding:
+def _finding(dataset: Dataset, zone: DeadZone, share: JointVector) -> SampleFinding:
     joint = zone.joint + 1
     unit = joint_unit(dataset.robot, joint, "N m")
     size = Quantity("half_width", joint, unit, zone.half, zone.deviation)
@@ -109,7 +119,7 @@ def _finding(dataset: Dataset, operating_point: Prediction, zone: DeadZone) -> S
         ),
         statistic=float(zone.zeros),
         p_value=zone.p_value,
-        residual_share=share_of_residual(dataset, operating_point, _added(dataset, operating_point, zone)),
+        residual_share=share,
     )
 
 

@@ -45,8 +45,7 @@ def with_reservations(found: Diagnosis, setup: SetupDoubts, *, doubted: bool) ->
         for finding in found.findings
     )
     findings = tuple(
-        _as_sure_as(setup.confidence, finding)
-        for finding in beside_another_setup(findings, setup.promising)
+        _as_sure_as(setup.confidence, finding) for finding in beside_another_setup(findings, setup.promising)
     )
     claims_nothing = found.verdict == "nothing_found" and (failed or doubted)
     explains = any(finding.confidence > CONFIDENCE.doubtful for finding in findings)

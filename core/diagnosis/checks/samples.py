@@ -49,7 +49,7 @@ def check_samples(problem: DiagnosisProblem) -> tuple[DiagnosisProblem, list[Fin
     fitter = replace(plain[0], dataset=dataset)
     typical = with_typical_holdout(dataset, plain, lambda other: _plain_fit(fitter.with_dataset(other)))
     found = fitter if typical is dataset else fitter.with_dataset(typical)
-    return problem, [*_faults(wide, zones)], found
+    return problem, [*_faults(wide, zones, stay=problem.reference is not None)], found
 
 
 def _zones(
@@ -66,13 +66,13 @@ def _zones(
     return refined_zones(zones, restored, explained)
 
 
-def _faults(wide: Fitted, zones: tuple[DeadZone, ...]) -> Iterator[Finding]:
+def _faults(wide: Fitted, zones: tuple[DeadZone, ...], *, stay: bool) -> Iterator[Finding]:
     """State what is wrong with the samples: dead zones that are known, and what else is found."""
     dataset, operating_point, _ = wide
     others = (check for check in SAMPLE_CHECKS if check.id != TorqueDeadZone.id)
     found: list[tuple[SampleCheck | Cause, tuple[SampleFinding, ...]]] = [
         *((check, check.examine(dataset, operating_point)) for check in others),
-        (TorqueDeadZone(), zone_findings(dataset, operating_point, zones)),
+        (TorqueDeadZone(), zone_findings(dataset, operating_point, zones, stay=stay)),
         (ExternalContact(), contacts_at_rest(dataset, operating_point)),
         (ClippedChannel(), clipped_channels(dataset, operating_point)),
     ]
