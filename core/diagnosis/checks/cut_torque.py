@@ -6,7 +6,6 @@ gives twice as many zeros as rounding does.
 """
 
 from collections.abc import Iterator
-from itertools import product
 
 import numpy as np
 
@@ -20,35 +19,44 @@ from ..thresholds.dataset import SAMPLE_CHECKS
 
 
 def cut_channels(dataset: Dataset, residual: JointSeries) -> Iterator[DeadZone]:
-    """Find the channels of every log that seem to cut off torques, by so much that it matters.
+    """Find the channels that may cut off torques, by so much that it matters.
+
+    The channels of a log come from one recorder. So all those with steps are asked where one seems to cut.
 
     Parameters
     ----------
     residual
         Measured minus predicted torque at the data set's rows, N m or N.
     """
-    for number, joint in product(range(len(dataset.motions)), range(dataset.joints)):
-        own = residual[(dataset.log == number) & dataset.usable[:, joint], joint]
-        zone = _zone(dataset, number, joint)
-        if zone is not None and len(own):
-            scatter = float(np.sqrt(np.mean(own**2) / len(own)))
-            if zone.shortfall > SAMPLE_CHECKS.dead_clearness * scatter:
-                yield zone
+    for number in range(len(dataset.motions)):
+        asked = (_zone(dataset, number, joint) for joint in range(dataset.joints))
+        zones = [zone for zone in asked if zone is not None and _matters(zone, dataset, residual)]
+        if any(zone.p_value < 1.0 for zone in zones):
+            yield from zones
+
+
+def _matters(zone: DeadZone, dataset: Dataset, residual: JointSeries) -> bool:
+    """Tell whether what a zone takes from larger torques shows in what a model leaves."""
+    own = residual[(dataset.log == zone.log) & dataset.usable[:, zone.joint], zone.joint]
+    return zone.shortfall > SAMPLE_CHECKS.dead_clearness * float(np.sqrt(np.sum(own**2)) / max(len(own), 1))
 
 
 def _zone(dataset: Dataset, number: int, joint: int) -> DeadZone | None:
-    """Give what a channel with steps may cut off: nearer to twice as many zeros than to as many as beside."""
+    """Give what a channel with steps takes from torques if it cuts off; None without steps.
+
+    Its p-value is 1 where it has hardly more zeros than rounding gives.
+    """
     efforts, moving = logged_efforts(dataset, number, joint)
     step = _step(efforts)
     if step is None:
         return None
     levels = np.abs(np.round(np.where(moving, efforts, np.nan) / step))
     zeros, beside, others = (int(np.sum(which)) for which in (levels == 0.0, levels == 1.0, levels > 0.0))
-    ratio = zeros / max(0.5 * beside, 1.0)
-    if ratio < SAMPLE_CHECKS.cut_zeros or others < SAMPLE_CHECKS.dead_nearby * zeros:
+    if others < max(SAMPLE_CHECKS.dead_nearby * zeros, 1.0):
         return None
-    scatter = SAMPLE_CHECKS.cut_scatter / np.sqrt(len(marked_runs(levels == 0.0)))
-    chance = normal_tail((ratio - 1.0) / scatter)
+    ratio = zeros / max(0.5 * beside, 1.0)
+    scatter = SAMPLE_CHECKS.cut_scatter / np.sqrt(max(len(marked_runs(levels == 0.0)), 1))
+    chance = normal_tail((ratio - 1.0) / scatter) if ratio > SAMPLE_CHECKS.cut_zeros else 1.0
     return DeadZone(number, joint, step, 0.0, 0.5 * step, zeros, zeros / (zeros + others), chance)
 
 

@@ -38,7 +38,17 @@ def _refined_together(zones: Sequence[DeadZone], dataset: Dataset, plain: Explai
     beside = _causes_on(*plain, {zone.joint + 1 for zone in zones})
     lacking = _lacking(zones, dataset, plain, beside)
     refined = (_refined(zone, *lacks) for zone, lacks in zip(zones, lacking, strict=True))
-    return [zone for zone in refined if zone is not None]
+    return _by_recorder([zone for zone in refined if zone is not None])
+
+
+def _by_recorder(zones: Sequence[DeadZone]) -> list[DeadZone]:
+    """Hold channels that may cut off for as likely to as a log's surest one: one recorder wrote all."""
+    surest: dict[int, float] = {}
+    for zone in zones:
+        if zone.steps:
+            surest[zone.log] = min(zone.p_value, surest.get(zone.log, 1.0))
+    judged = (zone if zone.is_known else replace(zone, p_value=surest[zone.log]) for zone in zones)
+    return [zone for zone in judged if zone.p_value <= EVEN]
 
 
 def _lacking(
@@ -85,8 +95,12 @@ def _refined(zone: DeadZone, more: float, deviation: float) -> DeadZone | None:
 
 
 def _judged(zone: DeadZone, more: float, deviation: float, *, clear: bool) -> DeadZone | None:
-    """Say whether a channel with known steps cuts off what is below; None where it does not."""
+    """Say whether a channel with known steps cuts off what is below; None where it does not.
+
+    Where the model cannot tell, its zeros make it doubtful or, with a p-value of 1, do not.
+    """
     if clear and abs(more) < SAMPLE_CHECKS.cut_least * zone.shortfall:
         return replace(zone, p_value=normal_tail((zone.shortfall + more) / deviation))
-    agrees = abs(more) < SAMPLE_CHECKS.dead_clearness * deviation
-    return replace(zone, p_value=EVEN) if agrees and zone.p_value < SAMPLE_CHECKS.cut_chance else None
+    if abs(more) > SAMPLE_CHECKS.dead_clearness * deviation:
+        return None
+    return replace(zone, p_value=EVEN if zone.p_value < SAMPLE_CHECKS.cut_chance else 1.0)
