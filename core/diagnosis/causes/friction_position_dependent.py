@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from ...dynamics.term import Term
 from ...dynamics.terms.friction_position_dependent import PositionFriction
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting
 from .shared.harmonics import harmonics, wave_quantities
 from .shared.own_joint import OwnJointCause
@@ -31,6 +32,10 @@ class FrictionPositionDependent(OwnJointCause):
     def term(self, at: Setting) -> Term:
         """Give the columns."""
         return PositionFriction(at.joint, at.scalars["harmonic"], at.scalars["centre"])
+
+    def admissible(self, solved: FittedCause) -> bool:
+        """Admit a level that is the same after a turn: the amplitude of a longer wave is extrapolated."""
+        return super().admissible(solved) and solved.scalars["harmonic"] >= ADMISSIBLE.friction_harmonic
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Give the wave: amplitude cos(harmonic q + phase) is added to the Coulomb level."""

@@ -71,6 +71,9 @@ class Admissible:
     whose torque was made late left 2.0 and 2.2; of 12 simulated ones 11 have more than 4."""
     ripple_harmonic: float = 2.0
     """Cycles per revolution of a torque ripple: gravity has one."""
+    friction_harmonic: float = 0.5
+    """Least cycles per revolution of a friction level: a joint that turns round has one at least, which the
+    motion may leave open by a half. Set by hand."""
     ripple_waves: float = 1.5
     """Waves of a ripple within the joint's range below which a finding is doubtful: three half waves at least
     say that it comes again. Source: a spring balance, of an independent simulation, passed for 1.1 waves."""

@@ -150,6 +150,12 @@ def test_a_coupling_may_lack_inertia_within_its_uncertainty_but_not_everything(
     assert not JointCoupling().admissible(solved(JointCoupling(), *scene, [-0.1, 0.1, 0.1]))
 
 
+def test_a_friction_level_is_the_same_after_a_turn(scene: tuple[Dataset, Prediction]) -> None:
+    found = solved(FrictionPositionDependent(), *scene, [1.0, 1.0])
+    waves = [replace(found, scalars={**found.scalars, "harmonic": each}) for each in (0.3, 0.8, 2.0)]
+    assert [FrictionPositionDependent().admissible(wave) for wave in waves] == [False, True, True]
+
+
 @pytest.mark.parametrize("cause", SCANNED, ids=lambda cause: cause.id)
 def test_neighbours_of_a_grid_are_so_correlated_that_nothing_between_them_is_missed(
     cause: Cause, scene: tuple[Dataset, Prediction]
