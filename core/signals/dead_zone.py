@@ -51,7 +51,7 @@ class DeadZone:
         return np.asarray(-taken)
 
     @property
-    def steps(self) -> bool:
+    def cuts_off(self) -> bool:
         """Tell whether the channel cuts off what is below its step, which is half of the zone's width."""
         return 0.0 < self.shortfall < self.half
 

@@ -126,9 +126,9 @@ def _finding(dataset: Dataset, zone: DeadZone, share: JointVector) -> SampleFind
 def _said(zone: DeadZone, size: Quantity) -> str:
     """Say what the channel does with small torques and with larger ones."""
     channel, step = f"orque channel {size.joint}", f"{number_text(size.value, 3)} {size.unit}"
-    if zone.steps and zone.is_known:
+    if zone.cuts_off and zone.is_known:
         return f"T{channel} cuts off what is below its step of {step}, half a step on average"
-    if zone.steps:
+    if zone.cuts_off:
         return f"T{channel} may cut off what is below its step of {step}: the motion does not tell"
     larger = "too little by as much" if zone.shortfall else "what they are"
     return f"Dead zone of t{channel}: torques below {size.text} read zero, and larger ones {larger}"

@@ -54,8 +54,8 @@ class SizeByJoint:
     @property
     def evidence(self) -> Evidence:
         """State what confirms it."""
-        least, most = self.sizes[clear := np.isin(self.joints, self.shown_by)].min(), self.sizes[clear].max()
-        shown = ", ".join(map(str, self.shown_by))
+        sizes = self.sizes[np.isin(self.joints, self.shown_by)]
+        least, most, shown = sizes.min(), sizes.max(), ", ".join(map(str, self.shown_by))
         return Evidence(
             f"Joints whose own torque shows the finding: joints {shown} give {least:.2g} to {most:.2g} of "
             "its size, and all agree. What else is left does not put it in doubt",

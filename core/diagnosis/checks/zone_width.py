@@ -45,7 +45,7 @@ def _by_recorder(zones: Sequence[DeadZone]) -> list[DeadZone]:
     """Hold channels that may cut off for as likely to as a log's surest one: one recorder wrote all."""
     surest: dict[int, float] = {}
     for zone in zones:
-        if zone.steps:
+        if zone.cuts_off:
             surest[zone.log] = min(zone.p_value, surest.get(zone.log, 1.0))
     judged = (zone if zone.is_known else replace(zone, p_value=surest[zone.log]) for zone in zones)
     return [zone for zone in judged if zone.p_value <= EVEN]
@@ -85,7 +85,7 @@ def _refined(zone: DeadZone, more: float, deviation: float) -> DeadZone | None:
     """
     lacking = zone.shortfall + more
     clear = lacking > SAMPLE_CHECKS.dead_clearness * deviation
-    if zone.steps:
+    if zone.cuts_off:
         return _judged(zone, more, deviation, clear=clear)
     if deviation < zone.deviation and not clear:
         return None
