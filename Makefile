@@ -36,7 +36,7 @@ $(READY): $(LOCK)
 			echo "Install one (on Debian and Ubuntu with python3-venv), or name one: make setup PYTHON=python3.12" >&2; exit 1; fi; \
 		echo "Making .venv with $$python; this takes a minute or two."; \
 		"$$python" -m venv .venv; fi
-	$(RUN) -m pip install --quiet --disable-pip-version-check --no-input --require-hashes -r $(LOCK)
+	$(RUN) -m pip install --quiet --disable-pip-version-check --no-input --no-compile --require-hashes -r $(LOCK)
 	@touch $(READY)
 
 demo: $(READY) ## identify a YuMi arm through the service, then diagnose a log in which something is hidden

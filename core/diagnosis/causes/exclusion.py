@@ -146,6 +146,11 @@ DOUBTS: tuple[Exclusion, ...] = (
         "it differs from Coulomb friction next to reversals only, where much else leaves a residual",
     ),
     Exclusion(
+        "friction_viscous_nonlinear",
+        f"the exponent is within {ADMISSIBLE.significant:g} standard deviations of 1",
+        "the friction may as well be linear, which the model has",
+    ),
+    Exclusion(
         "friction_presliding",
         f"the level is less than {ADMISSIBLE.level_deviations:g} standard deviations",
         "it may as well be Coulomb friction, which the model has",

@@ -41,9 +41,14 @@ class FrictionViscousNonlinear(OwnJointCause):
         )
 
     def represented(self, at: Setting, solved: FittedCause) -> bool:
-        """Doubt a power near zero: it differs from Coulomb friction next to reversals only."""
+        """Doubt a power near zero, and one that may be 1.
+
+        Near zero it differs from Coulomb friction next to reversals only. Where it does not differ from 1
+        significantly, the friction may as well be linear.
+        """
         del at
-        return solved.scalars["exponent"] >= ADMISSIBLE.least_power
+        power, deviation = solved.scalars["exponent"], solved.deviations.get("exponent", 0.0)
+        return power >= ADMISSIBLE.least_power and abs(power - 1.0) > ADMISSIBLE.significant * deviation
 
     def statement(self, solved: FittedCause) -> str:
         """State exponent and coefficient."""

@@ -102,6 +102,17 @@ def test_friction_that_differs_from_coulomb_friction_next_to_reversals_only_is_d
     assert FrictionViscousNonlinear().represented(at, solved) is sure
 
 
+@pytest.mark.parametrize(
+    ("exponent", "deviation", "sure"),
+    [(1.1, 0.21, False), (0.74, 0.14, False), (0.74, 0.1, True), (1.7, 0.3, True), (2.5, 0.8, False)],
+)
+def test_friction_that_may_as_well_be_linear_is_doubtful(exponent, deviation, sure):
+    solved = FittedCause((1,), np.ones(1), np.eye(1), {"exponent": exponent}, {"exponent": deviation})
+    look = scene(0.4)
+    at = Setting(look.dataset, look.operating_point, (1,), solved.scalars)
+    assert FrictionViscousNonlinear().represented(at, solved) is sure
+
+
 @pytest.mark.parametrize(("deviation", "sure"), [(0.1, True), (0.3, True), (0.4, False), (1.2, False)])
 def test_a_presliding_level_that_may_as_well_be_coulomb_friction_is_doubtful(deviation, sure):
     look = scene(0.4)
