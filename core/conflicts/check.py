@@ -47,11 +47,11 @@ class Conflicts:
         return min((step.confidence for step in self.found if self.applied), default=1.0)
 
     @property
-    def estimates_a_factor(self) -> bool:
-        """Tell whether a torque was multiplied by a factor that is an estimate."""
-        from .kinds.gear_ratio import GearRatio
+    def spoils(self) -> frozenset[str]:
+        """Name the causes that the log does not tell from others, although it was corrected."""
+        from .registry import CONFLICTS
 
-        return any(step.hypothesis.conflict == GearRatio.name for step in self.found)
+        return frozenset().union(*(CONFLICTS[step.hypothesis.conflict].spoils for step in self.found))
 
     @property
     def setup(self) -> "Setup | None":

@@ -47,6 +47,8 @@ class Conflict(ABC):
     """Its name in documents."""
     title: ClassVar[str]
     """Its name for people."""
+    spoils: ClassVar[frozenset[str]] = frozenset()
+    """Causes that a log which had it does not tell from others, even where it was corrected."""
 
     @abstractmethod
     def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:

@@ -93,6 +93,17 @@ class Mounting:
 
 
 @dataclass(frozen=True)
+class Compensation:
+    """Search the share of gravity that a compensated torque still holds. All are set by hand."""
+
+    most: float = 0.5
+    """Largest share, of either sign; beyond it one is nearer to all of gravity. On five sound robots the
+    likeliest is from 0.85 on."""
+    steps: int = 41
+    """Shares that are compared, 0.025 apart."""
+
+
+@dataclass(frozen=True)
 class TimeBase:
     """Decide whether stamps contradict a measured velocity. All are set by hand unless a source is named."""
 
@@ -228,6 +239,6 @@ class OtherSignal:
     """Added to the products of columns of unit size: what a free fit hardly shows, it hardly predicts."""
 
 
-DOUBT, TRIAL, DECISION, MOUNTING = Doubt(), Trial(), Decision(), Mounting()
+DOUBT, TRIAL, DECISION, MOUNTING, COMPENSATION = Doubt(), Trial(), Decision(), Mounting(), Compensation()
 TIME_BASE, TIME_OFFSET, LENGTH, RATIO, UNIT = TimeBase(), TimeOffset(), Length(), Ratio(), Unit()
 POSITION_FORCES, OTHER_SIGNAL, ZERO = PositionForces(), OtherSignal(), Zero()

@@ -101,7 +101,6 @@ UNNAMED = {
         "0.001": "a body of a gram",
         "0.0001": "a body of a centimetre",
     },
-    "conflicts/kinds/gravity_compensated": {"3": "gravity has three components"},
     "conflicts/time_base": {"3": "sums per joint", "65536": "rows read at once"},
     "conflicts/trial": {"3": "gravity has three components", "9.81": "standard gravity"},
     "diagnosis/causes/dropped_samples": {"0.01": "per cent"},

@@ -151,6 +151,11 @@ DOUBTS: tuple[Exclusion, ...] = (
         "the friction may as well be linear, which the model has",
     ),
     Exclusion(
+        "friction_load_dependent",
+        f"the coefficient is above {ADMISSIBLE.load_friction:g}",
+        "such a gear locks itself; the torque may be what a controller's own model leaves of it",
+    ),
+    Exclusion(
         "friction_presliding",
         f"the level is less than {ADMISSIBLE.level_deviations:g} standard deviations",
         "it may as well be Coulomb friction, which the model has",

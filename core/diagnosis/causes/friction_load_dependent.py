@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from ...dynamics.term import Term
 from ...dynamics.terms.friction_load_dependent import LoadFriction
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Scalars, Setting
 from .shared.own_joint import OwnJointCause, motor_inertias, rotor_text
 
@@ -34,6 +35,11 @@ class FrictionLoadDependent(OwnJointCause):
     def admissible(self, solved: FittedCause) -> bool:
         """Admit friction that brakes, and less than all of the load."""
         return super().admissible(solved) and bool(0.0 < solved.values[0] < 1.0)
+
+    def represented(self, at: Setting, solved: FittedCause) -> bool:
+        """Doubt a gear that locks itself: the torque then is not all of the load, or not in its unit."""
+        del at
+        return bool(solved.values[0] <= ADMISSIBLE.load_friction)
 
     def statement(self, solved: FittedCause) -> str:
         """State friction per unit of load."""

@@ -21,9 +21,8 @@ class SetupDoubts:
 
     is_open: bool = False
     """Whether they disagree in something that was not corrected."""
-    rescaled: bool = False
-    """Whether a torque was multiplied by an estimated factor. Gains are relative: whichever joint one is
-    found on, it may be the estimate's error."""
+    spoils: frozenset[str] = frozenset()
+    """Causes that the log does not tell from others, although it was corrected."""
     promising: float = 0.0
     """By how much the mean logarithm of the joints' errors would fall under another set-up that is not clear
     enough to be called wrong. Where all findings gain less, it is the better explanation."""
@@ -41,7 +40,7 @@ def with_reservations(found: Diagnosis, setup: SetupDoubts, *, doubted: bool) ->
     """
     failed = setup.is_open or any(_joints_not_fitted(found))
     findings = tuple(
-        as_doubtful(finding) if failed or (setup.rescaled and finding.cause == TorqueGain.id) else finding
+        as_doubtful(finding) if failed or finding.cause in setup.spoils else finding
         for finding in found.findings
     )
     findings = tuple(

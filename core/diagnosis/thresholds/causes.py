@@ -63,6 +63,9 @@ class Admissible:
     least_power: float = 0.25
     """Friction exponent below which a finding is doubtful: next to reversals much else leaves a residual.
     Source: measured robots whose torque was made late left 0.10 to 0.18; a true 0.4 is known to 0.07."""
+    load_friction: float = 0.5
+    """Share of the transmitted load above which its friction is doubtful. Source: what loses more than half
+    locks itself (Budynas & Nisbett, Shigley's Mechanical Engineering Design, ch. 8, on screws)."""
     presliding_distance: float = 0.3
     """Radians (metres) over which friction may build up after a reversal. Set by hand: measured gears have
     some milliradians; 1.2 were fitted to what a zero error of another joint left."""

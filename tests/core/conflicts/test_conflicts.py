@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from tests.conflicts.score import answer, mean_percent
 from tests.conflicts.spoil import SPOILERS
-from tests.core.estimate.worlds import FRICTION, swing, true_parameters
+from tests.core.estimate.worlds import swing, true_parameters
 from tests.measured import measured_log, measured_robot
 from tests.plant.cases import draw_clean
 from tests.truths.cases import pendulum_robot
@@ -279,18 +279,6 @@ def test_a_joint_that_only_impossible_bodies_follow_is_no_place_for_causes(arm):
     as_logged = IdentifyRequest(robot, (geared,), PLAIN | {"conflicts": "report"})
     assert has_impossible_joint(identify_in_full(as_logged))
     assert not has_impossible_joint(identify_in_full(IdentifyRequest(robot, (log,), PLAIN)))
-
-
-def test_a_log_without_gravity_is_named(arm):
-    robot, log, _ = arm
-    rows, model = whole_rows(log), standard_model(robot)
-    state = swing(4, seed=5)
-    held = replace(state, velocity=0.0 * state.velocity, acceleration=0.0 * state.acceleration)
-    inertial = np.array([one.symbol not in FRICTION for one in model.parameters])
-    only = true_parameters(model, seed=3) * inertial
-    without = log_from_arrays("free", rows.time, rows.position, rows.torque - model.torque(only, held))
-    (found,) = identify(IdentifyRequest(robot, (without,), PLAIN))["conflicts"]
-    assert found["conflict"] == "gravity_compensated"
 
 
 def test_a_study_of_what_was_corrected_is_that_of_what_was_right(arm):

@@ -70,6 +70,16 @@ def test_no_cause_is_surer_than_the_set_up_that_it_is_found_in():
     assert guessed.verdict == "unexplained"
 
 
+def test_a_cause_that_a_corrected_log_does_not_tell_from_others_is_doubtful():
+    sound = diagnosed(hidden)
+    (cause,) = {one.cause for one in sound.findings}
+    for spoils, most in (({cause}, 0.5), ({"another"}, 1.0)):
+        found = with_reservations(sound, SetupDoubts(spoils=frozenset(spoils)), doubted=False)
+        assert [one.confidence for one in found.findings] == [
+            min(one.confidence, most) for one in sound.findings
+        ]
+
+
 def test_a_finding_brings_everything_that_decided():
     found = diagnosed(hidden)
     assert found.verdict == "causes_found"

@@ -12,6 +12,7 @@ from tests.core.estimate.worlds import true_parameters
 from veritorque.core.diagnosis.causes.encoder_eccentricity import EncoderEccentricity
 from veritorque.core.diagnosis.causes.encoder_offset import EncoderOffset
 from veritorque.core.diagnosis.causes.exclusion import EXCLUSIONS, GENERAL
+from veritorque.core.diagnosis.causes.friction_load_dependent import FrictionLoadDependent
 from veritorque.core.diagnosis.causes.friction_presliding import FrictionPresliding
 from veritorque.core.diagnosis.causes.friction_viscous_nonlinear import FrictionViscousNonlinear
 from veritorque.core.diagnosis.causes.guide import guide
@@ -111,6 +112,15 @@ def test_friction_that_may_as_well_be_linear_is_doubtful(exponent, deviation, su
     look = scene(0.4)
     at = Setting(look.dataset, look.operating_point, (1,), solved.scalars)
     assert FrictionViscousNonlinear().represented(at, solved) is sure
+
+
+@pytest.mark.parametrize(("coefficient", "sure"), [(0.07, True), (0.3, True), (0.6, False)])
+def test_a_gear_that_would_lock_itself_is_doubtful(coefficient, sure):
+    solved = FittedCause((1,), np.array([coefficient]), 1e-6 * np.eye(1), {}, {})
+    look = scene(0.4)
+    at = Setting(look.dataset, look.operating_point, (1,), {})
+    assert FrictionLoadDependent().admissible(solved)
+    assert FrictionLoadDependent().represented(at, solved) is sure
 
 
 @pytest.mark.parametrize(("deviation", "sure"), [(0.1, True), (0.3, True), (0.4, False), (1.2, False)])
