@@ -31,6 +31,8 @@ class Hypothesis:
     """Whether the log's numbers ask for it by their size alone: it has to fit no worse, and costs nothing."""
     is_shown: bool = False
     """Whether the log shows it by itself, whatever the model says."""
+    is_significant: bool = False
+    """Whether least squares shows it by itself: it has to fit better than by chance only."""
     corrections: int = 1
     """Sizes that it finds by themselves: each has to gain what a correction has to."""
 

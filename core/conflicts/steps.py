@@ -21,6 +21,20 @@ from .thresholds import DECISION, TRIAL
 from .trial import Outcome, Trials
 
 
+@dataclass(frozen=True)
+class _Needed:
+    """Hold what hypotheses have to gain."""
+
+    alone: float
+    """What one has to that least squares shows by itself."""
+    among: float
+    """What the best of all has to."""
+
+    def by(self, own: Hypothesis) -> float:
+        """Give what a hypothesis has to gain."""
+        return self.alone if own.is_significant else self.among
+
+
 @dataclass(frozen=True, eq=False)
 class _Bounded:
     hypothesis: Hypothesis
@@ -52,7 +66,7 @@ class Steps:
     _present: Outcome
     _listed: Sequence[_Bounded]
     _tried: Sequence[_Tried]
-    _needed: float
+    _needed: _Needed
 
     def alternatives(self, trials: Trials) -> Path:
         """Give the next best, one of each kind and factor: one error may mask another.
@@ -83,7 +97,7 @@ def first_steps(setup: Setup, present: Outcome, trials: Trials, reach: float = n
     """
     listed = _bounded(setup, trials)
     margins = Margins.of(present, trials)
-    needed = margins.needed(len(listed))
+    needed = _Needed(margins.undecided, margins.needed(len(listed)))
     tried = _tried(listed, present, trials, needed, reach)
     better = _better(tried, present, needed)
     best = min(map(_score, better), default=present.score)
@@ -120,7 +134,7 @@ def _by_motion(equations: list[Equations]) -> Iterable[list[int]]:
 
 
 def _tried(
-    listed: list[_Bounded], present: Outcome, trials: Trials, needed: float, reach: float
+    listed: list[_Bounded], present: Outcome, trials: Trials, needed: _Needed, reach: float
 ) -> list[_Tried]:
     """Fit those that can still win, best bound first; give them in order of preference."""
     tried: list[tuple[int, _Tried]] = []
@@ -146,11 +160,11 @@ def _can_gain(candidate: _Bounded, present: Outcome) -> bool:
     return bool(changes or candidate.bound < present.fitted - DECISION.least_gain)
 
 
-def _try(candidate: _Bounded, trials: Trials, needed: float) -> _Tried | None:
+def _try(candidate: _Bounded, trials: Trials, needed: _Needed) -> _Tried | None:
     own, outcome = candidate.hypothesis, trials.outcome(candidate.hypothesis.setup)
     if outcome is None or _is_guessed(own, outcome):
         return None
-    credit = needed if own.expected else -DECISION.least_gain * (own.corrections - 1)
+    credit = needed.by(own) if own.expected else -DECISION.least_gain * (own.corrections - 1)
     return _Tried(own, outcome, outcome.score - credit)
 
 
@@ -161,9 +175,9 @@ def _is_guessed(own: Hypothesis, outcome: Outcome) -> bool:
     return scales and bool(np.any(outcome.unpredicted[places] > DECISION.scaled))
 
 
-def _better(tried: Iterable[_Tried], present: Outcome, needed: float) -> list[_Tried]:
+def _better(tried: Iterable[_Tried], present: Outcome, needed: _Needed) -> list[_Tried]:
     """Give those that predict better than a set-up by more than chance."""
-    return [own for own in tried if own.score <= present.score - needed]
+    return [own for own in tried if own.score <= present.score - needed.by(own.hypothesis)]
 
 
 def _subject(hypothesis: Hypothesis) -> tuple[object, ...]:

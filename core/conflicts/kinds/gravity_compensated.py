@@ -26,7 +26,7 @@ class GravityCompensated(Conflict):
     def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
         """Give the likeliest share of gravity that is left, where there is gravity.
 
-        It is expected where least squares fits significantly better so.
+        It is significant where least squares fits so much better.
         """
         described = np.asarray(setup.robot.gravity, dtype=float)
         if not np.any(described):
@@ -46,7 +46,7 @@ class GravityCompensated(Conflict):
             setup.with_gravity(gravity),
             _statement(shares[best]),
             f"set gravity to [{listed}] m/s2 for this log, or log the whole torque",
-            expected=bool(scores[best] < bound(described) - margins.undecided),
+            is_significant=bool(scores[best] < bound(described) - margins.undecided),
         )
 
 
