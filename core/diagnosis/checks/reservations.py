@@ -9,10 +9,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...arrays import SampleMask, Samples
 from ..causes.torque_dead_zone import TorqueDeadZone
 from ..causes.torque_gain import TorqueGain
+from ..dataset.dataset import Dataset
 from ..result import Diagnosis, Evidence, Finding
 from ..thresholds.checks import CONFIDENCE, RESIDUAL, VERDICT
+from ..thresholds.dataset import BAND
 
 
 @dataclass(frozen=True)
@@ -132,10 +135,27 @@ def _as_sure_as(most: float, finding: Finding) -> Finding:
 
 
 def _joints_not_fitted(found: Diagnosis) -> Iterator[int]:
-    """Give the joints that keep more than half of their RMS torque, and not as noise."""
+    """Give the joints that keep more than half of their RMS torque, and not as noise.
+
+    Either the residual can be predicted from the motion, or it stays from cycle to cycle of the band. Where
+    positions are no positions, nothing in the log predicts it, and it is as slow as the motion all the same.
+    """
     structured = {share.joint for share in found.predictable if share.interval[0] > VERDICT.unexplained_share}
-    for joint in structured:
-        usable = found.dataset.usable[:, joint - 1]
-        left = np.sum(found.residual_after[usable, joint - 1] ** 2)
-        if left > RESIDUAL.failed**2 * np.sum(found.dataset.torque[usable, joint - 1] ** 2):
+    for joint, usable in enumerate(found.dataset.usable.T, start=1):
+        left, torque = (
+            np.where(usable, series[:, joint - 1], 0.0)
+            for series in (found.residual_after, found.dataset.torque)
+        )
+        rows = max(int(np.count_nonzero(usable)), 1)
+        most = RESIDUAL.failed**2 * float(np.sum(torque**2)) / rows
+        is_structured = joint in structured and float(np.sum(left**2)) / rows > most
+        if is_structured or _persisting(found.dataset, left, usable) > most:
             yield joint
+
+
+def _persisting(dataset: Dataset, left: Samples, usable: SampleMask) -> float:
+    """Give the mean square of what a residual keeps over a cycle of the band, which white noise does not."""
+    lag = int(np.ceil(BAND.rows))
+    products = [left[one.rows][lag:] * left[one.rows][:-lag] for one in dataset.stretches]
+    pairs = [usable[one.rows][lag:] & usable[one.rows][:-lag] for one in dataset.stretches]
+    return float(sum(map(np.sum, products)) / max(sum(map(np.count_nonzero, pairs)), 1))

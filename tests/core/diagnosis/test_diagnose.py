@@ -70,6 +70,20 @@ def test_no_cause_is_surer_than_the_set_up_that_it_is_found_in():
     assert guessed.verdict == "unexplained"
 
 
+@pytest.mark.parametrize(("is_slow", "most"), [(True, 0.5), (False, 1.0)], ids=["slow", "white noise"])
+def test_findings_are_doubtful_where_more_than_half_of_a_torque_stays_and_is_no_noise(is_slow, most):
+    found = diagnosed(hidden)
+    dataset, rng = found.dataset, np.random.default_rng(3)
+    waves = np.sqrt(2.0) * np.sin(dataset.motion_band_hz * np.pi * dataset.time)
+    left = found.residual_after.copy()
+    size = 0.7 * np.sqrt(np.mean(dataset.torque[dataset.usable[:, 0], 0] ** 2))
+    left[:, 0] = size * (waves if is_slow else rng.normal(size=len(waves)))
+    kept = with_reservations(
+        replace(found, residual_after=left, predictable=()), SetupDoubts(), doubted=False
+    )
+    assert [one.confidence for one in kept.findings] == [min(one.confidence, most) for one in found.findings]
+
+
 def test_a_cause_that_a_corrected_log_does_not_tell_from_others_is_doubtful():
     sound = diagnosed(hidden)
     (cause,) = {one.cause for one in sound.findings}
