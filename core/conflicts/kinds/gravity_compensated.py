@@ -8,6 +8,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ...arrays import Vector3
+from ...dynamics.terms.rotor_inertia import RotorInertia
 from ..conflict import Conflict, Hypothesis
 from ..path import Margins
 from ..setup import Setup
@@ -31,23 +33,42 @@ class GravityCompensated(Conflict):
         described = np.asarray(setup.robot.gravity, dtype=float)
         if not np.any(described):
             return
-        bound = trials.under_gravity(setup)
-        shares = np.linspace(-COMPENSATION.most, COMPENSATION.most, COMPENSATION.steps)
-        scores = bound(shares[:, None] * described)
-        margins = Margins(trials.samples.independent * len(setup.robot.joints))
-        none, best = int(np.argmin(np.abs(shares))), int(np.argmin(scores))
-        best = none if scores[none] <= scores[best] + margins.equal else best
-        gravity = shares[best] * described
+        share, is_significant = _likeliest_share(setup, trials, described)
+        gravity = share * described
         listed = ", ".join(f"{component + 0.0:.3g}" for component in gravity)
         yield Hypothesis(
             self.name,
             (),
             "torque",
             setup.with_gravity(gravity),
-            _statement(shares[best]),
+            _statement(share),
             f"set gravity to [{listed}] m/s2 for this log, or log the whole torque",
-            is_significant=bool(scores[best] < bound(described) - margins.undecided),
+            is_significant=is_significant,
         )
+
+
+def _likeliest_share(setup: Setup, trials: Trials, described: Vector3) -> tuple[float, bool]:
+    """Give the share of gravity that least squares finds, and whether it is surely not all of it.
+
+    A rotor's inertia that is not modelled moves without weight, as if gravity were less. Then, and where no
+    share below the largest is likeliest, none or all of gravity are the only choices.
+    """
+    bound = trials.under_gravity(setup)
+    shares = np.linspace(-COMPENSATION.most, COMPENSATION.most, COMPENSATION.steps)
+    scores = bound(shares[:, None] * described)
+    margins = Margins(trials.samples.independent * setup.joints)
+    best = int(np.argmin(scores))
+    if best in (0, len(shares) - 1) or not _has_all_rotors(setup, trials):
+        return 0.0, False
+    is_significant = bool(scores[best] < bound(described) - margins.undecided)
+    return (0.0 if bound(0.0 * described) <= scores[best] + margins.equal else shares[best]), is_significant
+
+
+def _has_all_rotors(setup: Setup, trials: Trials) -> bool:
+    """Tell whether every joint's rotor has an inertia of its own in the model."""
+    parameters = trials.equations(setup).regressor.base.model.parameters
+    rotors = {one.number for one in parameters if one.symbol == RotorInertia.symbol[0]}
+    return len(rotors) == setup.joints
 
 
 def _statement(share: float) -> str:

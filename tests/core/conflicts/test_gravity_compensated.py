@@ -91,3 +91,16 @@ def test_on_a_measured_arm_it_is_named_and_no_friction_by_position_is_sure():
 def test_gravity_that_a_small_error_of_gain_makes_larger_or_smaller_is_there(share):
     robot, log = compensated(share)
     assert identify(IdentifyRequest(robot, (log,), PLAIN))["conflicts"] == []
+
+
+def test_rotors_whose_inertia_is_not_modelled_do_not_make_gravity_less():
+    robot = robot_from_description({"name": "arm", "joints": list(ROWS)})
+    model, state = standard_model(robot), swing(4, seed=5)
+    heavy = np.array([8.0 if one.symbol == "IA" else 1.0 for one in model.parameters])
+    torque = model.torque(heavy * true_parameters(model, seed=3), state)
+    noise_rms = 0.01 * np.std(torque, axis=0)
+    torque += noise_rms * np.random.default_rng(1).normal(size=torque.shape)
+    log = log_from_arrays("log", np.arange(len(torque)) / 100.0, state.position, torque)
+    light = [{**row, "rotor_inertia": False} for row in ROWS]
+    found = identify(IdentifyRequest(robot_from_description({"name": "arm", "joints": light}), (log,), PLAIN))
+    assert "gravity_compensated" not in {one["conflict"] for one in found["conflicts"]}
