@@ -18,7 +18,7 @@ from ..trial import Trials
 
 
 class GravityCompensated(Conflict):
-    """Leave out the most of gravity."""
+    """Leave out most of gravity, or all of it."""
 
     name = "gravity_compensated"
     title = "Torque without gravity"
@@ -72,6 +72,8 @@ def _has_all_rotors(setup: Setup, trials: Trials) -> bool:
 
 
 def _statement(share: float) -> str:
-    if share < 0.0:
-        return f"{100.0 * (1.0 - share):.0f} % of gravity was taken from the torque, more than all of it"
-    return f"the torque holds {100.0 * share:.0f} % of gravity" if share else "the torque holds no gravity"
+    if not share:
+        return "the torque holds no gravity"
+    if share > 0.0:
+        return f"the torque holds about {100.0 * share:.0f} % of gravity"
+    return f"about {100.0 * (1.0 - share):.0f} % of gravity was taken from the torque, more than all of it"

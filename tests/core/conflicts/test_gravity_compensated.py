@@ -52,9 +52,9 @@ def gravity_at(position: np.ndarray, model: DynamicModel, parameters: np.ndarray
     ("share", "said"),
     [
         (0.0, "the torque holds no gravity"),
-        (0.1, "the torque holds 10 % of gravity"),
-        (0.3, "the torque holds 30 % of gravity"),
-        (-0.1, "110 % of gravity was taken from the torque, more than all of it"),
+        (0.1, "the torque holds about 10 % of gravity"),
+        (0.3, "the torque holds about 30 % of gravity"),
+        (-0.1, "about 110 % of gravity was taken from the torque, more than all of it"),
     ],
 )
 def test_the_share_that_is_left_is_named(share, said):
