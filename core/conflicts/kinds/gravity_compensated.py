@@ -34,8 +34,8 @@ class GravityCompensated(Conflict):
         if not np.any(described):
             return
         share, is_significant = _likeliest_share(setup, trials, described)
-        gravity = share * described
-        listed = ", ".join(f"{component + 0.0:.3g}" for component in gravity)
+        gravity = share * described + 0.0  # no negative zeros
+        listed = ", ".join(f"{component:.3g}" for component in gravity)
         yield Hypothesis(
             self.name,
             (),
