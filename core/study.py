@@ -262,7 +262,9 @@ def _explain(
     task, problem, options = settled.task, settled.fit.problem, settled.task.options
     last = scaled_progress(tell, 0.8, 0.15)
     conflicts, doubted = settled.conflicts, bool(contradictions(before))
-    doubts = SetupDoubts(conflicts.is_open, conflicts.spoils, conflicts.promising, conflicts.confidence)
+    doubts = SetupDoubts(
+        conflicts.is_open, conflicts.doubtful_causes, conflicts.promising, conflicts.confidence
+    )
     found = with_reservations(found, doubts, doubted=doubted)
     plain = problem if reference is None else replace(problem, prior=reference.prior)
     found, proof = extend.verified(found, options, plain, lambda: tell("verify", 0.78))

@@ -47,11 +47,12 @@ class Conflicts:
         return min((step.confidence for step in self.found if self.applied), default=1.0)
 
     @property
-    def spoils(self) -> frozenset[str]:
-        """Name the causes that the log does not tell from others, although it was corrected."""
+    def doubtful_causes(self) -> frozenset[str]:
+        """Name the causes that stay doubtful although the log was corrected."""
         from .registry import CONFLICTS
 
-        return frozenset().union(*(CONFLICTS[step.hypothesis.conflict].spoils for step in self.found))
+        kinds = (CONFLICTS[step.hypothesis.conflict] for step in self.found)
+        return frozenset().union(*(kind.doubtful_causes for kind in kinds))
 
     @property
     def setup(self) -> "Setup | None":

@@ -49,8 +49,8 @@ class Conflict(ABC):
     """Its name in documents."""
     title: ClassVar[str]
     """Its name for people."""
-    spoils: ClassVar[frozenset[str]] = frozenset()
-    """Causes that a log which had it does not tell from others, even where it was corrected."""
+    doubtful_causes: ClassVar[frozenset[str]] = frozenset()
+    """Causes that a log does not tell from what this conflict leaves when it is corrected."""
 
     @abstractmethod
     def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:

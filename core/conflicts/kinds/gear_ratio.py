@@ -18,7 +18,7 @@ class GearRatio(Conflict):
 
     name = "gear_ratio"
     title = "Gear ratio of a channel"
-    spoils = frozenset({"torque_gain"})
+    doubtful_causes = frozenset({"torque_gain"})
     """Gains are relative: whichever joint one is found on, it may be the estimated factor's error."""
 
     def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:

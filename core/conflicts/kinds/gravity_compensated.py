@@ -22,8 +22,20 @@ class GravityCompensated(Conflict):
 
     name = "gravity_compensated"
     title = "Torque without gravity"
-    spoils = frozenset({"friction_position_dependent", "friction_load_dependent"})
-    """Gears transmit the load that such a torque does not hold: its friction follows the position."""
+    doubtful_causes = frozenset(
+        {
+            "friction_position_dependent",
+            "friction_load_dependent",
+            "spring_compensator",
+            "cable_force",
+            "gravity_misalignment",
+            "encoder_offset",
+            "kinematic_error",
+            "link_parameters",
+        }
+    )
+    """Gears transmit the load that such a torque does not hold: its friction follows the position. What
+    a controller's wrong bodies leave of gravity follows it, too."""
 
     def hypotheses(self, setup: Setup, trials: Trials) -> Iterator[Hypothesis]:
         """Give the likeliest share of gravity that is left, where there is gravity.
@@ -61,7 +73,8 @@ def _likeliest_share(setup: Setup, trials: Trials, described: Vector3) -> tuple[
     if best in (0, len(shares) - 1) or not _has_all_rotors(setup, trials):
         return 0.0, False
     is_significant = bool(scores[best] < bound(described) - margins.undecided)
-    return (0.0 if bound(0.0 * described) <= scores[best] + margins.equal else shares[best]), is_significant
+    is_none = bool(bound(0.0 * described) <= scores[best] + margins.equal)
+    return 0.0 if is_none else float(shares[best]), is_significant
 
 
 def _has_all_rotors(setup: Setup, trials: Trials) -> bool:

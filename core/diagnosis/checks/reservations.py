@@ -24,8 +24,8 @@ class SetupDoubts:
 
     is_open: bool = False
     """Whether they disagree in something that was not corrected."""
-    spoils: frozenset[str] = frozenset()
-    """Causes that the log does not tell from others, although it was corrected."""
+    causes: frozenset[str] = frozenset()
+    """Causes that stay doubtful although what disagreed was corrected."""
     promising: float = 0.0
     """By how much the mean logarithm of the joints' errors would fall under another set-up that is not clear
     enough to be called wrong. Where all findings gain less, it is the better explanation."""
@@ -43,7 +43,7 @@ def with_reservations(found: Diagnosis, setup: SetupDoubts, *, doubted: bool) ->
     """
     failed = setup.is_open or any(_joints_not_fitted(found))
     findings = tuple(
-        as_doubtful(finding) if failed or finding.cause in setup.spoils else finding
+        as_doubtful(finding) if failed or finding.cause in setup.causes else finding
         for finding in found.findings
     )
     findings = tuple(

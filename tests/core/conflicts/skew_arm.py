@@ -27,6 +27,18 @@ def skew_arm() -> RobotModel:
     return robot_from_description({"name": "arm", "joints": rows})
 
 
+def four_joints(**fields: object) -> RobotModel:
+    """Describe four skew joints, each with some more fields."""
+    row = {"type": "revolute", **fields}
+    rows = [
+        {**row, "alpha": 0.0, "d": 0.0, "r": 0.3, "theta_offset": 0.0},
+        {**row, "alpha": -np.pi / 2, "d": 0.1, "r": 0.0, "theta_offset": 0.4},
+        {**row, "alpha": 0.0, "d": 0.4, "r": 0.1, "theta_offset": -0.3},
+        {**row, "alpha": np.pi / 2, "d": 0.05, "r": 0.3, "theta_offset": 0.0},
+    ]
+    return robot_from_description({"name": "arm", "joints": rows})
+
+
 def sound_log(robot: RobotModel, seed: int = 5) -> JointLog:
     """Log a motion of always the same bodies at 100 Hz, the torques with 1 % of noise."""
     model, state = standard_model(robot), swing(3, seed=seed)

@@ -8,6 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from tests.conflicts.score import answer, mean_percent
 from tests.conflicts.spoil import SPOILERS
+from tests.core.conflicts.skew_arm import PLAIN, four_joints
 from tests.core.estimate.worlds import swing, true_parameters
 from tests.measured import measured_log, measured_robot
 from tests.plant.cases import draw_clean
@@ -33,20 +34,11 @@ from veritorque.core.signals.state import MotionState
 from veritorque.core.study import IdentifyRequest, diagnose, identify, identify_in_full
 from veritorque.core.validation.holdout import HoldOut
 
-PLAIN = {"bootstrap": {"draws": 0}}
-
 
 @pytest.fixture(scope="module")
 def arm():
     """Give four skew joints with 1 % of noise, and what a sound study of them leaves."""
-    row = {"type": "revolute"}
-    rows = [
-        {**row, "alpha": 0.0, "d": 0.0, "r": 0.3, "theta_offset": 0.0},
-        {**row, "alpha": -np.pi / 2, "d": 0.1, "r": 0.0, "theta_offset": 0.4},
-        {**row, "alpha": 0.0, "d": 0.4, "r": 0.1, "theta_offset": -0.3},
-        {**row, "alpha": np.pi / 2, "d": 0.05, "r": 0.3, "theta_offset": 0.0},
-    ]
-    robot = robot_from_description({"name": "arm", "joints": rows})
+    robot = four_joints()
     model = standard_model(robot)
     truth = true_parameters(model, seed=3)
     state = swing(4, seed=5)

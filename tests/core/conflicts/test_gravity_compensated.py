@@ -3,29 +3,22 @@
 import numpy as np
 import pytest
 
+from tests.core.conflicts.skew_arm import PLAIN, four_joints
 from tests.core.estimate.worlds import FRICTION, swing, true_parameters
 from tests.measured import measured_log, measured_robot
+from veritorque.core.conflicts.registry import CONFLICTS
+from veritorque.core.diagnosis.causes.registry import BY_ID
 from veritorque.core.dynamics.model import DynamicModel, standard_model
 from veritorque.core.log.model import JointLog, whole_rows
 from veritorque.core.log.reader import log_from_arrays
-from veritorque.core.robot.description import robot_from_description
 from veritorque.core.robot.model import RobotModel
 from veritorque.core.signals.state import MotionState
 from veritorque.core.study import IdentifyRequest, diagnose, identify, identify_in_full
 
-PLAIN = {"bootstrap": {"draws": 0}}
-ROW = {"type": "revolute"}
-ROWS = (
-    {**ROW, "alpha": 0.0, "d": 0.0, "r": 0.3, "theta_offset": 0.0},
-    {**ROW, "alpha": -np.pi / 2, "d": 0.1, "r": 0.0, "theta_offset": 0.4},
-    {**ROW, "alpha": 0.0, "d": 0.4, "r": 0.1, "theta_offset": -0.3},
-    {**ROW, "alpha": np.pi / 2, "d": 0.05, "r": 0.3, "theta_offset": 0.0},
-)
-
 
 def compensated(share: float, noise: float = 0.01) -> tuple[RobotModel, JointLog]:
     """Give an arm whose torque holds a share of gravity, and noise relative to what is left."""
-    robot = robot_from_description({"name": "arm", "joints": list(ROWS)})
+    robot = four_joints()
     model, state = standard_model(robot), swing(4, seed=5)
     truth = true_parameters(model, seed=3)
     torque = model.torque(truth, state) - (1.0 - share) * gravity_at(state.position, model, truth)
@@ -94,13 +87,17 @@ def test_gravity_that_a_small_error_of_gain_makes_larger_or_smaller_is_there(sha
 
 
 def test_rotors_whose_inertia_is_not_modelled_do_not_make_gravity_less():
-    robot = robot_from_description({"name": "arm", "joints": list(ROWS)})
+    robot = four_joints()
     model, state = standard_model(robot), swing(4, seed=5)
     heavy = np.array([8.0 if one.symbol == "IA" else 1.0 for one in model.parameters])
     torque = model.torque(heavy * true_parameters(model, seed=3), state)
     noise_rms = 0.01 * np.std(torque, axis=0)
     torque += noise_rms * np.random.default_rng(1).normal(size=torque.shape)
     log = log_from_arrays("log", np.arange(len(torque)) / 100.0, state.position, torque)
-    light = [{**row, "rotor_inertia": False} for row in ROWS]
-    found = identify(IdentifyRequest(robot_from_description({"name": "arm", "joints": light}), (log,), PLAIN))
+    found = identify(IdentifyRequest(four_joints(rotor_inertia=False), (log,), PLAIN))
     assert "gravity_compensated" not in {one["conflict"] for one in found["conflicts"]}
+
+
+@pytest.mark.parametrize("conflict", CONFLICTS.values(), ids=lambda one: one.name)
+def test_what_stays_doubtful_beside_a_conflict_is_a_cause(conflict):
+    assert conflict.doubtful_causes <= {*BY_ID}

@@ -87,8 +87,8 @@ def test_findings_are_doubtful_where_more_than_half_of_a_torque_stays_and_is_no_
 def test_a_cause_that_a_corrected_log_does_not_tell_from_others_is_doubtful():
     sound = diagnosed(hidden)
     (cause,) = {one.cause for one in sound.findings}
-    for spoils, most in (({cause}, 0.5), ({"another"}, 1.0)):
-        found = with_reservations(sound, SetupDoubts(spoils=frozenset(spoils)), doubted=False)
+    for causes, most in (({cause}, 0.5), ({"another"}, 1.0)):
+        found = with_reservations(sound, SetupDoubts(causes=frozenset(causes)), doubted=False)
         assert [one.confidence for one in found.findings] == [
             min(one.confidence, most) for one in sound.findings
         ]
