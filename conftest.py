@@ -10,12 +10,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-import jaxtyping
 import pytest
 from hypothesis import HealthCheck, is_hypothesis_test, settings
-from jaxtyping import install_import_hook
 
-from tests.shapes import start_test
+from tests.shapes import CALLS, check_packages, start_test, start_with_each_case
 
 CHECKED_PACKAGES = (
     "veritorque.core.diagnosis",
@@ -46,7 +44,7 @@ os.environ.setdefault("NUMBA_CACHE_DIR", str(ROOT / "data" / "kernels"))
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
 
-install_import_hook(CHECKED_PACKAGES, "tests.shapes.first_calls")
+check_packages(CHECKED_PACKAGES)
 
 settings.register_profile(
     "veritorque",
@@ -83,5 +81,7 @@ def _has_kernels(file: Path) -> bool:
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_setup(item: pytest.Item) -> None:
     """Check shapes unless the test is slow."""
-    jaxtyping.config.update("jaxtyping_disable", item.get_closest_marker("slow") is not None)
-    start_test(of_a_law=is_hypothesis_test(getattr(item, "obj", None)))
+    start_test(0 if item.get_closest_marker("slow") else CALLS)
+    law = getattr(item, "obj", None)
+    if is_hypothesis_test(law):
+        start_with_each_case(law)

@@ -1,101 +1,120 @@
 """Check shapes in the first calls of every function in every test, not in a hundred thousand alike.
 
-A check costs a tenth of a millisecond, which in a whole diagnosis was a third of the time. A law over drawn
-cases is checked in every call: its shapes differ from one case to the next. To make a check costs a
-millisecond: it is made when it is first needed, which for a function inside another is in its first calls,
-too, and not whenever it is defined anew. Arguments or results of which none is an array have no shape, and
-their types are what mypy proves: a function with neither is never checked.
+A check costs a tenth of a millisecond, which in a whole diagnosis was a third of the time. In a law each
+drawn case counts as a test: its shapes differ from those of the last. To make a check costs a millisecond, so
+it is made when it is first needed. A function that neither takes nor gives an array has no shapes, and its
+types are what mypy proves: it is left as it is.
 """
 
-import inspect
-import sys
+import functools
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from types import FunctionType
+from dataclasses import dataclass, field, is_dataclass
 from typing import Any, get_args
 
+import jaxtyping
 from beartype import beartype
-from jaxtyping import AbstractArray
+from jaxtyping import AbstractArray, install_import_hook
 
-CALLS = 10
+CALLS = 3
 """How often a function is checked in a test."""
+
+make_check = jaxtyping.jaxtyped
 
 
 @dataclass(eq=False)
 class Counter:
-    """Count the checks of one function's arguments or result in a test."""
+    """Count the checked calls of one function in a test."""
 
-    module: str
-    name: str
     calls: int = 0
-
-    def let(self, *, unchecked: bool) -> None:
-        """Let the function be checked or not; one that is defined inside another cannot be found."""
-        function = _function(self.module, self.name)
-        if function is not None:
-            function.__dict__["__no_type_check__"] = unchecked
 
 
 @dataclass(eq=False)
 class Budget:
     """Hold how many calls are checked, and the functions that the test has called."""
 
-    calls: int | None = CALLS
+    calls: int = CALLS
     called: list[Counter] = field(default_factory=list)
 
 
 BUDGET = Budget()
-COUNTERS: dict[tuple[str, str, bool], Counter] = {}
-"""Of every function by module and name, of its arguments and of its result."""
-RESULTS: set[tuple[str, str]] = set()
-"""Functions by module and name whose results have shapes."""
+COUNTERS: dict[tuple[str, str], Counter] = {}
+"""By module and name: a function inside another is defined again and again."""
 
 
-def first_calls(check: Callable[..., Any]) -> Callable[..., Any]:
-    """Make the check of a function's arguments or result, as the import hook asks for it.
-
-    That of a result names the arguments once more; their sizes are known by then.
-    """
-    if "return" not in check.__annotations__:  # to find which argument it is that was refused
-        return beartype(check)
-    of_result = check.__annotations__["return"] is not Any
-    if of_result:
-        check.__annotations__ = {"return": check.__annotations__["return"]}
-    module, name = check.__module__, check.__qualname__
-    if not any(map(_has_shape, check.__annotations__.values())):
-        return _unchecked(module, name, of_result=of_result)
-    if of_result:
-        RESULTS.add((module, name))
-    return _counted(check, COUNTERS.setdefault((module, name, of_result), Counter(module, name)))
+def start_test(calls: int = CALLS) -> None:
+    """Count anew, and say how many calls of every function are checked."""
+    for counter in BUDGET.called:
+        counter.calls = 0
+    BUDGET.called.clear()
+    BUDGET.calls = calls
 
 
-def _counted(check: Callable[..., Any], counter: Counter) -> Callable[..., Any]:
-    """Make the check when it is first needed, and no more when it was needed often enough."""
+def start_with_each_case(law: Any) -> None:
+    """Let every drawn case of a law count as a test; a law that is parametrised is one function."""
+    inner = law.hypothesis.inner_test
+    if hasattr(inner, "starts"):
+        return
+
+    @functools.wraps(inner)
+    def case(*arguments: Any, **drawn: Any) -> None:
+        start_test(BUDGET.calls)
+        inner(*arguments, **drawn)
+
+    case.starts = True
+    law.hypothesis.inner_test = case
+
+
+def check_packages(names: tuple[str, ...]) -> None:
+    """Let the import hook of jaxtyping, which decorates all there is in a package, check first calls."""
+    jaxtyping.jaxtyped = lambda *, typechecker: first_calls  # the hook names it
+    install_import_hook(names, "beartype.beartype")
+
+
+def first_calls(what: Any) -> Any:
+    """Check the first calls of a function, or those that make an object of a data class."""
+    if not isinstance(what, type):
+        return _counted(what) if _has_shapes(what) else what
+    made = vars(what).get("__init__")
+    if is_dataclass(what) and made is not None and not hasattr(made, "__wrapped__") and _has_shapes(made):
+        what.__init__ = _counted(made)
+    return what
+
+
+def _counted(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Check a function until it was called often enough."""
+    counter = COUNTERS.setdefault((function.__module__, function.__qualname__), Counter())
     checked: Callable[..., Any] | None = None
 
+    @functools.wraps(function)
     def counted(*arguments: Any, **options: Any) -> Any:
         nonlocal checked
+        if counter.calls >= BUDGET.calls:
+            return function(*arguments, **options)
         if not counter.calls:
             BUDGET.called.append(counter)
         counter.calls += 1
-        if BUDGET.calls is not None and counter.calls >= BUDGET.calls:
-            counter.let(unchecked=True)
-            if counter.calls > BUDGET.calls:
-                return None
-        checked = checked or beartype(check)
+        checked = checked or make_check(function, typechecker=_checking)
         return checked(*arguments, **options)
 
     return counted
 
 
-def start_test(*, of_a_law: bool) -> None:
-    """Count anew; in a law over drawn cases every call is checked."""
-    for counter in BUDGET.called:
-        if BUDGET.calls is not None and counter.calls >= BUDGET.calls:
-            counter.let(unchecked=False)
-        counter.calls = 0
-    BUDGET.called.clear()
-    BUDGET.calls = None if of_a_law else CALLS
+def _checking(check: Callable[..., Any]) -> Callable[..., Any]:
+    """Make the check of a function's arguments or result, as jaxtyping asks for it.
+
+    That of a result names the arguments once more; their sizes are known by then.
+    """
+    if check.__annotations__.get("return", Any) is not Any:
+        check.__annotations__ = {"return": check.__annotations__["return"]}
+    return beartype(check) if _has_shapes(check) else _unchecked
+
+
+def _unchecked(*_: Any, **__: Any) -> None:
+    """Stand for the check of what has no shape."""
+
+
+def _has_shapes(function: Callable[..., Any]) -> bool:
+    return any(map(_has_shape, function.__annotations__.values()))
 
 
 def _has_shape(annotation: Any) -> bool:
@@ -105,31 +124,3 @@ def _has_shape(annotation: Any) -> bool:
     if isinstance(annotation, type) and issubclass(annotation, AbstractArray):
         return True
     return isinstance(annotation, str) or any(map(_has_shape, get_args(annotation)))
-
-
-def _unchecked(module: str, name: str, *, of_result: bool) -> Callable[..., Any]:
-    """Check nothing of a function's arguments or result, and nothing at all where neither has a shape.
-
-    The check of a result is made before that of the arguments.
-    """
-    spared = not of_result and (module, name) not in RESULTS
-
-    def unchecked(*_: Any, **__: Any) -> Any:
-        nonlocal spared
-        if spared:
-            Counter(module, name).let(unchecked=True)
-            spared = False
-
-    return unchecked
-
-
-def _function(module: str, name: str) -> FunctionType | None:
-    """Find the function behind its checks."""
-    found: Any = sys.modules.get(module)
-    for part in name.split("."):
-        found = inspect.getattr_static(found, part, None)
-    if isinstance(found, property):
-        found = found.fget
-    found = getattr(found, "__func__", getattr(found, "func", found))
-    inner = getattr(found, "__wrapped__", None)
-    return inner if isinstance(inner, FunctionType) else None

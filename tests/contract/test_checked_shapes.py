@@ -1,10 +1,10 @@
-"""Shapes are checked in the first calls of a function in every test, and in every call of a law."""
+"""Shapes are checked in the first calls of a function in every test, and in those of every case of a law."""
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from jaxtyping import Float, TypeCheckError, jaxtyped
+from jaxtyping import Float, TypeCheckError
 
 from tests.shapes import CALLS, first_calls
 from veritorque.core.robot.inertia import mass_properties, pseudo_inertia
@@ -24,12 +24,12 @@ def test_a_wrong_shape_is_refused_in_the_first_calls_of_every_test(function):
 
 @settings(max_examples=2 * CALLS)
 @given(st.integers(1, 9))
-def test_a_wrong_shape_is_refused_in_every_call_of_a_law(size):
+def test_a_wrong_shape_is_refused_in_every_case_of_a_law(size):
     with pytest.raises(TypeCheckError):
         mass_properties(BODY[:size])
 
 
-@jaxtyped(typechecker=first_calls)
+@first_calls
 def square(row: Float[np.ndarray, "n"], excess: int = 0) -> Float[np.ndarray, "n n"]:
     return np.zeros((len(row) + excess, len(row)))
 
@@ -47,7 +47,7 @@ def test_it_is_said_which_argument_was_refused():
 
 def test_a_function_inside_another_is_checked_in_its_first_calls_however_often_it_is_defined():
     def defined():
-        @jaxtyped(typechecker=first_calls)
+        @first_calls
         def inner(row: Float[np.ndarray, "n"]) -> Float[np.ndarray, "n n"]:
             return np.zeros((len(row), len(row) + 1))
 
