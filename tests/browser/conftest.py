@@ -19,7 +19,7 @@ def browser():
     playwright = pytest.importorskip("playwright.sync_api", reason="NO PLAYWRIGHT: no page was looked at")
     with playwright.sync_playwright() as driver:
         # Chromium cannot make a sandbox of its own inside most containers, and sees nothing but our pages.
-        started = driver.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        started = driver.chromium.launch(executable_path=found, args=["--no-sandbox", "--disable-gpu", "--disable-gpu-rasterization"])
         yield started
         started.close()
 

@@ -59,13 +59,14 @@ def test_a_line_that_silences_a_check_without_a_reason_is_found(line, bare):
 
 
 def test_every_check_that_is_silenced_says_why():
-    lines = (
-        (f"{path.relative_to(ROOT)}:{number}", line)
+    bare = [
+        f"{path}:{number}"
         for path in MODULES
         if path != Path(__file__)
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1)
-    )
-    assert [place for place, line in lines if without_reason(line)] == []
+        if without_reason(line)
+    ]
+    assert bare == []
 
 
 def test_what_a_whole_module_is_spared_by_mypy_is_explained_on_the_line_above():
@@ -78,5 +79,6 @@ def test_what_a_whole_module_is_spared_by_mypy_is_explained_on_the_line_above():
 
 def test_every_test_that_is_left_out_says_why_and_none_is_expected_to_fail():
     texts = {path: path.read_text(encoding="utf-8") for path in MODULES if path != Path(__file__)}
-    assert [str(path) for path, text in texts.items() if left_out(ast.parse(text))] == []
+    named = {path: text for path, text in texts.items() if "skip" in text or "xfail" in text}
+    assert [str(path) for path, text in named.items() if left_out(ast.parse(text))] == []
     assert [str(path) for path, text in texts.items() if "xfail(" in text] == []

@@ -115,7 +115,7 @@ def test_annotations_of_core_are_values_so_that_shapes_can_be_checked():
     imports = [
         (label(path), node.module)
         for path in CORE
-        for node in ast.walk(tree(path))
+        for node in tree(path).body
         if isinstance(node, ast.ImportFrom)
     ]
     assert imports
