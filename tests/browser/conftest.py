@@ -9,6 +9,11 @@ from tests.browser.windows import Windows
 from veritorque.app.store.keys import KeyStore
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+FLAGS = (
+    "--no-sandbox",  # it cannot make one of its own inside most containers, and sees nothing but our pages
+    "--disable-gpu",  # an emulated one draws slower than none, and Debian would use it
+    "--disable-gpu-rasterization",
+)
 
 
 @pytest.fixture(scope="session")
@@ -18,8 +23,7 @@ def browser():
         pytest.skip(f"NO BROWSER: none of {', '.join(BROWSERS)} is installed, so no page was looked at")
     playwright = pytest.importorskip("playwright.sync_api", reason="NO PLAYWRIGHT: no page was looked at")
     with playwright.sync_playwright() as driver:
-        # Chromium cannot make a sandbox of its own inside most containers, and sees nothing but our pages.
-        started = driver.chromium.launch(executable_path=found, args=["--no-sandbox", "--disable-gpu", "--disable-gpu-rasterization"])
+        started = driver.chromium.launch(executable_path=found, args=FLAGS)
         yield started
         started.close()
 
