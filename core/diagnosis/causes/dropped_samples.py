@@ -108,21 +108,27 @@ def _count(rows: LogRows, motion: Motion) -> _Count:
 def _expected(columns: list[Samples], moving: SampleMask, lost: SampleMask) -> float:
     """Give how many rows repeat by chance while the robot moves, from how often each channel does nearby.
 
-    Coarse channels repeat together where all joints are slow.
+    Coarse channels repeat together where all joints are slow. Where the robot starts or stops this is so for
+    a few rows only, and the rows beside them tell it, those at rest among them. Rows in which all repeat are
+    not counted, so that a channel repeats more often than in those that are: by the chance that all do.
     """
-    fresh = moving & ~lost
-    known = 1.0 + _nearby(fresh)
-    chances = np.ones(len(moving))
+    wide, beside = SAMPLE_CHECKS.dropped_nearby // 2, SAMPLE_CHECKS.dropped_reach
+    known, near = 1.0 + _nearby(moving & ~lost, wide), np.maximum(_nearby(~lost, beside), 1.0)
+    shares = []
     for column in columns:
-        same = np.append(False, column[1:] == column[:-1]) & fresh
-        chances *= (_nearby(same) + 0.5) / known
+        same = np.append(False, column[1:] == column[:-1]) & ~lost
+        shares.append(
+            np.maximum((_nearby(same & moving, wide) + 0.5) / known, _nearby(same, beside) / near)
+        )
+    chances = np.zeros(len(moving))
+    for _ in range(SAMPLE_CHECKS.dropped_rounds):
+        chances = np.prod([share * (1.0 - chances) + chances for share in shares], axis=0)
     return float(chances[moving].sum())
 
 
-def _nearby(marks: SampleMask) -> Samples:
-    """Count marks among so many rows about each row."""
-    counts = np.append(0, np.cumsum(marks))
-    rows, reach = np.arange(len(marks)), SAMPLE_CHECKS.dropped_nearby // 2
+def _nearby(marks: SampleMask, reach: int) -> Samples:
+    """Count marks among the rows up to so many before and after each row."""
+    counts, rows = np.append(0, np.cumsum(marks)), np.arange(len(marks))
     count = counts[np.minimum(rows + reach + 1, len(marks))] - counts[np.maximum(rows - reach, 0)]
     return np.asarray(count, dtype=float)
 

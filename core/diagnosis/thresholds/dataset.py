@@ -93,9 +93,11 @@ class SampleChecks:
     filter_order: int = 5
     """Order of the low-pass filters of the checks."""
     dropped_reach: int = 5
-    """Rows over which it is judged whether the robot moved."""
+    """Rows over which it is judged whether the robot moved, and how often a channel repeats beside a row."""
     dropped_nearby: int = 200
     """Rows from which the chance is taken that a channel repeats."""
+    dropped_rounds: int = 8
+    """Rounds in which the chance that all channels repeat follows from each one's among the rows without."""
     dropped_drawn: float = 0.02
     """Share of rows that are drawn at least to measure what repeats add."""
     jitter_band: float = 0.25

@@ -25,6 +25,7 @@ CHECKS: dict[str, SampleCheck] = {
 RATE_HZ, SECONDS = 250.0, 20.0
 INERTIA, NOISE = np.array([2.0, 1.0]), 0.05
 FINE = 1e-6
+STROKES, COARSE = 5, 0.05
 
 
 def two_wheels() -> RobotModel:
@@ -107,6 +108,24 @@ def test_every_row_is_counted_that_stands_for_a_lost_one_however_many_follow_eac
         "dropped_samples", log_from_arrays("wheels", whole.time, whole.position[kept], whole.torque[kept])
     )
     assert found.statistic == 3 * rows
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_rows_that_a_coarse_recorder_repeats_where_the_robot_starts_and_stops_are_not_lost(seed):
+    rng = np.random.default_rng(seed)
+    time = np.arange(int(SECONDS * RATE_HZ)) / RATE_HZ
+    part = (time / SECONDS * STROKES) % 1.0
+    stroke = 10.0 * part**3 - 15.0 * part**4 + 6.0 * part**5
+    push = (60.0 * part - 180.0 * part**2 + 120.0 * part**3) * (STROKES / SECONDS) ** 2
+    forth = np.where((time / SECONDS * STROKES).astype(int) % 2, -1.0, 1.0)
+    angle = np.where(forth > 0.0, stroke, 1.0 - stroke)
+    torque = (forth * push)[:, None] * INERTIA + rng.normal(size=(len(time), 2)) * 0.1 * COARSE
+    position = np.round(angle[:, None] * np.array([1.0, 0.7]) / 4e-4) * 4e-4
+    assert findings("dropped_samples", log_from_arrays("wheels", time, position, _coarse(torque))) == ()
+
+
+def _coarse(torque: np.ndarray) -> np.ndarray:
+    return np.asarray(np.round(torque / COARSE) * COARSE)
 
 
 def test_a_coarse_encoder_is_found_on_its_own_joint_with_its_step():
