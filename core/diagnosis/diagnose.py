@@ -22,10 +22,11 @@ from .checks.instruments import Instruments
 from .checks.kurtosis import bounded_residual
 from .checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
 from .checks.lagging_reference import beside_reference, lagging_reference
-from .checks.reservations import beside_dead_zones
+from .checks.reservations import beside_dead_zones, beside_mixed_channels
 from .checks.samples import check_samples, dataset_of
 from .checks.spring_resonance import beside_what_swings
 from .checks.structure_left import StructureLeft, nothing_beside_structure
+from .checks.unnamed_pattern import mixes_channels
 from .dataset.dataset import later_torque
 from .dataset.refusals import refuse_too_little
 from .problem import DiagnosisProblem
@@ -73,13 +74,14 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     named = [finding(found, own, after, statistic, checks, logs) for own in comparisons]
     findings = beside_dead_zones([*named, *faults], restored=bool(problem.zones))
     findings = beside_reference(findings, lagging)
+    most = max((own.statistic for own in comparisons), default=0.0)
+    findings = beside_mixed_channels(findings, unnamed, most)
     findings, swings = beside_what_swings(findings)
     doubted = any((lagging, swings, nothing_beside_structure(findings)))
     tell("predict the residual", 0.8)
     noise = tuple(joint.noise for joint in chosen.fit.joints)
     predictable = predictable_share(dataset, after, fitter.operating_point, noise)
     tell("prepare figures", 0.95)
-    most = max((own.statistic for own in comparisons), default=0.0)
     return Diagnosis(
         verdict="unexplained" if doubted else _verdict(findings, predictable, unnamed, most),
         findings=tuple(sorted(findings, key=lambda finding: finding.p_value)),
@@ -188,6 +190,7 @@ def _fit_pattern(found: SearchState, candidates: tuple[Candidate, ...]) -> Unnam
         statement=last.cause.statement(larger.in_joint_units(len(larger.members) - 1, dataset.robot)),
         statistic=likelihood_ratio(found.chosen, larger),
         log10_p=log_p_value / float(np.log(10.0)),
+        mixes_channels=mixes_channels(last.scalars),
     )
 
 

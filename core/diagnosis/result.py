@@ -121,6 +121,8 @@ class UnnamedPattern:
     log10_p: float
     """Likelihood ratio statistic (of the kurtosis its squared deviations), and the logarithm of the p-value,
     corrected for all patterns and joints."""
+    mixes_channels: bool = False
+    """Whether torque channels read each other by it."""
 
 
 @dataclass(frozen=True, eq=False)

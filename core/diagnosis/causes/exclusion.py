@@ -178,6 +178,11 @@ DOUBTS: tuple[Exclusion, ...] = (
         "so little of a wave may be any other torque over the angle, as of a hose or a spring balance",
     ),
     Exclusion(
+        "torque_offset_drift",
+        f"the time constant is below {ADMISSIBLE.least_warm_up:g} s",
+        "no drive or sensor warms up faster; it is the state in which hysteretic friction begins the log",
+    ),
+    Exclusion(
         "time_delay",
         "the torque is ahead of the positions by less than one sample",
         "a controller holds a torque until its next sample: it acts half a sample later than it is logged",

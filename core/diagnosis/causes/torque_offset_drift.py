@@ -11,6 +11,7 @@ from ...log.model import LogRows
 from ...robot.joint_units import joint_unit
 from ...robot.model import RobotModel
 from ..dataset.dataset import Dataset
+from ..thresholds.causes import ADMISSIBLE
 from .protocol import FittedCause, Numbers, Scalars, Setting, Site, number_text
 from .repairs import CorrectsLog, with_torque
 from .shared.own_joint import OwnJointCause
@@ -38,6 +39,11 @@ class TorqueOffsetDrift(OwnJointCause, CorrectsLog):
         """Give the column."""
         time = at.dataset.time
         return Drift(at.joint, float(time.min()), float(np.ptp(time)), at.scalars["time_constant"])
+
+    def represented(self, at: Setting, solved: FittedCause) -> bool:
+        """Doubt a drift that is over within seconds: it is what friction and hoses remember of before."""
+        del at
+        return solved.scalars["time_constant"] >= ADMISSIBLE.least_warm_up
 
     def statement(self, solved: FittedCause) -> str:
         """State total drift and time constant."""

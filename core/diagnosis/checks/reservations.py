@@ -13,7 +13,7 @@ from ...arrays import SampleMask, Samples
 from ..causes.torque_dead_zone import TorqueDeadZone
 from ..causes.torque_gain import TorqueGain
 from ..dataset.dataset import Dataset
-from ..result import Diagnosis, Evidence, Finding
+from ..result import Diagnosis, Evidence, Finding, UnnamedPattern
 from ..thresholds.checks import CONFIDENCE, RESIDUAL, VERDICT
 from ..thresholds.dataset import BAND
 
@@ -91,6 +91,22 @@ def _reach(finding: Finding) -> Sequence[int]:
     if finding.member is None:
         return ()
     return range(1, max(finding.joints) + 1) if finding.member.cause.traits.transient else finding.joints
+
+
+def beside_mixed_channels(
+    findings: Sequence[Finding], unnamed: UnnamedPattern | None, most: float
+) -> list[Finding]:
+    """Limit what a search found where torque channels read each other by more than any of it explains.
+
+    No channel then holds the torque of its joint alone, so that none of them shows a cause.
+
+    Parameters
+    ----------
+    most
+        Largest likelihood ratio statistic of the findings.
+    """
+    mixed = unnamed is not None and unnamed.mixes_channels and unnamed.statistic > most
+    return [as_doubtful(finding) if mixed and finding.member is not None else finding for finding in findings]
 
 
 def beside_another_setup(findings: Sequence[Finding], promising: float) -> tuple[Finding, ...]:

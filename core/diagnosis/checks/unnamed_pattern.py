@@ -14,7 +14,8 @@ import numpy as np
 
 from ...arrays import Vector
 from ...dynamics.term import Term
-from ...dynamics.terms.unnamed_pattern import FACTORS, PATTERNS, GainDrift, Numbers, Trace
+from ...dynamics.terms.encoder_error import PositionScale
+from ...dynamics.terms.unnamed_pattern import FACTORS, PATTERNS, GainDrift, Numbers, OtherTorques, Trace
 from ..causes.protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting
 from ..causes.shared.own_joint import OwnJointCause
 from ..dataset.dataset import Dataset
@@ -34,7 +35,17 @@ SWITCHES = 16
 """Parts of a log between which friction may switch; refined to the row."""
 DRIFT = "drift"
 """A gain of the torque channel that changes with time, whose column is of the model's torque."""
-_NAMES = (*PATTERNS, DRIFT)
+OTHERS, SCALE = "others", "scale"
+"""Shares of other joints' torques in the channel, and a scale of the joint's positions."""
+_NAMES = (*PATTERNS, DRIFT, OTHERS, SCALE)
+
+_WORDS = {
+    "levels": "two levels between which it switches by itself",
+    DRIFT: "its own torque times time, as with a gain that drifts",
+    OTHERS: "shares of the other joints' torques, as in channels that read each other",
+    SCALE: "a scale of its positions, as with a gear ratio that is slightly off",
+}
+"""What a residual follows that needs no number to say it."""
 
 
 @dataclass(frozen=True)
@@ -50,8 +61,9 @@ class UnnamedPatternCause(OwnJointCause):
     def grid(self, at: Setting) -> Sequence[Scalars]:
         """List all patterns with their numbers."""
         patterns = _patterns(at.dataset.joints, at.joint, _seconds(at.dataset))
-        drift = (DRIFT, _span(at.dataset))
-        return [_scalars(name, numbers) for name, numbers in (*patterns, *_switches(at.dataset), drift)]
+        channels: list[tuple[str, Numbers]] = [(DRIFT, _span(at.dataset)), (SCALE, ())]
+        channels += [(OTHERS, ())] * (at.dataset.joints > 1)
+        return [_scalars(name, numbers) for name, numbers in (*patterns, *_switches(at.dataset), *channels)]
 
     def loops(self, at: Setting) -> list[Scalars]:
         """List the loops in which the joint may lag behind the logged positions: what a reference leaves."""
@@ -85,6 +97,10 @@ class UnnamedPatternCause(OwnJointCause):
         name, numbers = _read(at.scalars)
         if name == DRIFT:
             return GainDrift(at.joint, at.operating_point, *numbers)
+        if name == OTHERS:
+            return OtherTorques(at.joint, at.operating_point)
+        if name == SCALE:
+            return PositionScale(at.joint, at.operating_point)
         return Trace(at.joint, name, numbers)
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
@@ -95,6 +111,11 @@ class UnnamedPatternCause(OwnJointCause):
     def statement(self, solved: FittedCause) -> str:
         """Say what the residual follows."""
         return f"The residual of joint {solved.site[0]} follows {_pattern_words(*_read(solved.scalars))}"
+
+
+def mixes_channels(scalars: Scalars) -> bool:
+    """Tell whether a pattern is that of torque channels which read each other."""
+    return _read(scalars)[0] == OTHERS
 
 
 @cache
@@ -181,10 +202,9 @@ def _pattern_words(pattern: str, numbers: Numbers) -> str:
             f"a wave over joint {int(numbers[0])}'s angle ({numbers[1]:g} per revolution)"
             f"{factor[int(numbers[2])]}"
         )
-    if pattern == "levels":
-        return "two levels between which it switches by itself"
+    if pattern in _WORDS:
+        return _WORDS[pattern]
     return {
-        DRIFT: "its own torque times time, as with a gain that drifts",
         "clock": f"a period of {1.0 / numbers[0]:.3g} s, independent of the motion",
         "friction": f"its own friction, which switches at {numbers[0]:.3g} s",
         "swing": f"an oscillation at about {numbers[0]:.2g} Hz, independent of the motion",

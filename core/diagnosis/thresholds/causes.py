@@ -81,7 +81,7 @@ class Admissible:
     """Waves of a ripple within the joint's range below which a finding is doubtful: three half waves at least
     say that it comes again. Source: a spring balance, of an independent simulation, passed for 1.1 waves."""
     least_warm_up: float = 3.0
-    """Seconds, time constant of a warm-up: no drive of a robot warms up faster."""
+    """Seconds, time constant of a warm-up and of a drifting offset: no drive of a robot warms up faster."""
     saturation_error: float = 0.03
     """Relative error of the largest predicted torques, which a torque limit is known to. On nine simulated
     logs with a limit they exceeded it by 0.6 to 2.5 %."""

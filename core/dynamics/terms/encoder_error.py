@@ -51,11 +51,28 @@ class EncoderEccentricity(AllJointsTerm):
             MotionState(sine, cosine * dq, cosine * ddq - sine * dq**2),
             MotionState(cosine, -sine * dq, -sine * ddq - cosine * dq**2),
         )
-        plain = self.believed.torque(state)
-        out = []
-        for error in errors:
-            shift = MotionState(
-                *(-SMALL * series for series in (error.position, error.velocity, error.acceleration))
-            )
-            out.append((self.believed.torque(shift_joint(state, own, shift)) - plain) / SMALL)
-        return out
+        return [_change(self.believed, state, own, error) for error in errors]
+
+
+@dataclass(frozen=True, eq=False)
+class PositionScale(AllJointsTerm):
+    """Model a reading that is the true position times 1 + `scale`."""
+
+    believed: Prediction
+    symbols = (("scale", "1", None),)
+    kind = "unlisted"
+
+    def torques(self, robot: RobotModel, state: MotionState) -> list[JointSeries]:
+        """Give minus the change of torque per share of the position."""
+        del robot
+        own = self.joint - 1
+        error = MotionState(
+            *(series[:, [own]] for series in (state.position, state.velocity, state.acceleration))
+        )
+        return [_change(self.believed, state, own, error)]
+
+
+def _change(believed: Prediction, state: MotionState, own: int, error: MotionState) -> JointSeries:
+    """Give minus the change of torque with an error of a joint (from 0), to first order."""
+    shift = MotionState(*(-SMALL * series for series in (error.position, error.velocity, error.acceleration)))
+    return np.asarray((believed.torque(shift_joint(state, own, shift)) - believed.torque(state)) / SMALL)

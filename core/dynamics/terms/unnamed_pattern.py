@@ -81,6 +81,26 @@ class GainDrift(OneJointTerm):
         return [torque * time, torque * time**2]
 
 
+@dataclass(frozen=True, eq=False)
+class OtherTorques(OneJointTerm):
+    """Model a torque channel that also reads shares of the other joints' torques."""
+
+    believed: Prediction
+    kind = "unlisted"
+
+    def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
+        """List a share per other joint."""
+        return tuple(
+            Parameter(f"of_{joint}", self.joint, self.joint, "1", None)
+            for joint in range(1, len(robot.joints) + 1)
+            if joint != self.joint
+        )
+
+    def columns(self, state: MotionState) -> list[Samples]:
+        """Give the predicted torques of the other joints."""
+        return list(np.delete(self.believed.applied(state), self.joint - 1, axis=1).T)
+
+
 def _speeds(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
     del own
     first, second = (int(joint) - 1 for joint in numbers)

@@ -19,6 +19,7 @@ from veritorque.core.diagnosis.causes.guide import guide
 from veritorque.core.diagnosis.causes.protocol import FittedCause, Setting
 from veritorque.core.diagnosis.causes.registry import BY_ID, CAUSES
 from veritorque.core.diagnosis.causes.torque_gain import TorqueGain
+from veritorque.core.diagnosis.causes.torque_offset_drift import TorqueOffsetDrift
 from veritorque.core.diagnosis.causes.torque_ripple import TorqueRipple
 from veritorque.core.diagnosis.causes.torque_saturation import TorqueSaturation
 from veritorque.core.diagnosis.dataset.dataset import build_dataset
@@ -129,6 +130,14 @@ def test_a_presliding_level_that_may_as_well_be_coulomb_friction_is_doubtful(dev
     at = Setting(look.dataset, look.operating_point, (1,), {"presliding_distance": 2e-3})
     solved = FittedCause((1,), np.ones(1), deviation**2 * np.eye(1), dict(at.scalars), {})
     assert FrictionPresliding().represented(at, solved) is sure
+
+
+@pytest.mark.parametrize(("time_constant", "sure"), [(0.7, False), (2.9, False), (3.5, True), (600.0, True)])
+def test_an_offset_that_has_settled_within_seconds_is_doubtful(time_constant, sure):
+    look = scene(0.4)
+    at = Setting(look.dataset, look.operating_point, (1,), {"time_constant": time_constant})
+    solved = FittedCause((1,), np.ones(1), 1e-6 * np.eye(1), dict(at.scalars), {})
+    assert TorqueOffsetDrift().represented(at, solved) is sure
 
 
 @pytest.mark.parametrize(

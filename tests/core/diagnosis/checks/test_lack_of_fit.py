@@ -5,9 +5,12 @@ import pytest
 from scipy.signal import lsim
 
 from tests.core.diagnosis.made_up import JOINT, candidate, made_up, nothing_found, on_joint
-from tests.core.diagnosis.scenes import Effect, fitter_of, measured_arm
+from tests.core.diagnosis.scenes import Effect, Scene, fitter_of, look_at_arm, measured_arm, skew_arm
+from tests.core.estimate.worlds import true_parameters
 from veritorque.core.diagnosis.checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
 from veritorque.core.diagnosis.search.hypothesis import Hypothesis
+from veritorque.core.dynamics.model import standard_model
+from veritorque.core.log.model import whole_rows
 
 RHYTHM = 0.4
 """Repetitions of something beside the robot, Hz."""
@@ -43,7 +46,14 @@ def brake_that_lets_go(state):
     return np.where(state.time < RELEASED, np.sign(state.velocity[:, 1]), 0.0)
 
 
+def shares_of_other_torques(state):
+    """Let the channel read a little of the other joints' torques."""
+    model = standard_model(skew_arm())
+    return model.torque(true_parameters(model), state)[:, [0, 2]] @ np.array([0.01, -0.03])
+
+
 WORDS = {
+    shares_of_other_torques: "shares of the other joints' torques",
     product: "the product of the speeds of joints 1 and 3",
     wave_of_another_joint: "a wave over joint 1's angle (2 per revolution) with the sign of its own speed",
     beat: "a period of 2.5 s, independent of the motion",
@@ -53,7 +63,11 @@ WORDS = {
 
 
 def found_beside_nothing(effect: Effect | None, seed: int) -> Hypothesis | None:
-    fitter = fitter_of(measured_arm(effect, seed=seed), ())
+    return found_in(measured_arm(effect, seed=seed))
+
+
+def found_in(scene: Scene) -> Hypothesis | None:
+    fitter = fitter_of(scene, ())
     return best_unnamed_pattern(fitter, nothing_found(fitter), unnamed_candidates(fitter))
 
 
@@ -66,6 +80,17 @@ def test_a_pattern_without_a_name_is_told_with_its_joint_and_what_it_follows(tor
     assert last.site == (JOINT,)
     assert statement.startswith(f"The residual of joint {JOINT} follows ")
     assert WORDS[torque] in statement
+
+
+@pytest.mark.parametrize("share", [-0.03, 0.03])
+def test_positions_that_are_read_on_another_scale_are_told_with_their_joint(share):
+    dataset = measured_arm().dataset
+    scale = np.where(np.arange(dataset.joints) == JOINT - 1, 1.0 + share, 1.0)
+    rows = whole_rows(dataset.motions[0].log)
+    found = found_in(look_at_arm(rows.position * scale, rows.torque))
+    last = found.members[-1]
+    assert last.site == (JOINT,)
+    assert "a scale of its positions" in last.cause.statement(found.solved(0))
 
 
 @pytest.mark.parametrize("seed", range(8))

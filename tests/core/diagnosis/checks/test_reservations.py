@@ -12,8 +12,12 @@ from veritorque.core.diagnosis.causes.protocol import Cause, Site
 from veritorque.core.diagnosis.causes.sample_check import SampleFinding
 from veritorque.core.diagnosis.causes.torque_dead_zone import TorqueDeadZone
 from veritorque.core.diagnosis.checks.findings import sample_finding
-from veritorque.core.diagnosis.checks.reservations import beside_another_setup, beside_dead_zones
-from veritorque.core.diagnosis.result import Finding, Gain
+from veritorque.core.diagnosis.checks.reservations import (
+    beside_another_setup,
+    beside_dead_zones,
+    beside_mixed_channels,
+)
+from veritorque.core.diagnosis.result import Finding, Gain, UnnamedPattern
 from veritorque.core.diagnosis.search.hypothesis import Candidate
 from veritorque.core.diagnosis.thresholds.checks import CONFIDENCE
 
@@ -56,6 +60,17 @@ def test_beside_a_zone_that_a_channel_may_have_findings_on_its_joint_are_doubtfu
     zone = replace(found(TorqueDeadZone(), (2,), 0.1), confidence=CONFIDENCE.doubtful)
     limited = beside_dead_zones([own, other, zone], restored=restored)
     assert [one.confidence for one in limited] == pytest.approx([0.5, SURE, 0.5])
+
+
+@pytest.mark.parametrize(
+    ("statistic", "mixes", "doubtful"), [(300.0, True, True), (100.0, True, False), (300.0, False, False)]
+)
+def test_channels_that_read_each_other_show_no_cause(statistic, mixes, doubtful):
+    own, zone = found(FrictionLoadDependent(), (2,), 0.3), found(TorqueDeadZone(), (3,), 0.1)
+    pattern = UnnamedPattern(1, "shares", statistic, -60.0, mixes_channels=mixes)
+    limited = beside_mixed_channels([own, zone], pattern, 200.0)
+    assert [one.confidence for one in limited] == pytest.approx([0.5 if doubtful else SURE, SURE])
+    assert beside_mixed_channels([own], None, 200.0) == [own]
 
 
 GAINED = 0.2
