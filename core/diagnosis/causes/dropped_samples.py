@@ -117,9 +117,7 @@ def _expected(columns: list[Samples], moving: SampleMask, lost: SampleMask) -> f
     shares = []
     for column in columns:
         same = np.append(False, column[1:] == column[:-1]) & ~lost
-        shares.append(
-            np.maximum((_nearby(same & moving, wide) + 0.5) / known, _nearby(same, beside) / near)
-        )
+        shares.append(np.maximum((_nearby(same & moving, wide) + 0.5) / known, _nearby(same, beside) / near))
     chances = np.zeros(len(moving))
     for _ in range(SAMPLE_CHECKS.dropped_rounds):
         chances = np.prod([share * (1.0 - chances) + chances for share in shares], axis=0)
