@@ -1,11 +1,13 @@
 """Find joints whose torque or current has no sign: a drive's magnitude, such as its RMS current.
 
 Where a load changes its direction, a magnitude comes down to zero and turns. A signed torque that has one
-sign all the time hardly comes as near to zero again and again without ever passing it.
+sign all the time hardly comes as near to zero again and again without ever passing it. The same is true of
+a magnitude that was given the sign of the speed, once it is multiplied by that sign where the joint moves.
 """
 
 import numpy as np
 
+from ...arrays import Samples
 from ..model import Defect
 from .stretch import Facts, Stretch
 
@@ -18,37 +20,60 @@ LEAST_VISITS = 5
 """How often it comes from far to zero at least. Set by hand: once or twice is chance."""
 
 
+REACH_ROWS = 5
+"""Rows before and after a row between which the joint moves clearly, or its direction is not asked for."""
+
+
 class Unsigned:
     """Count how often every joint's torque or current comes to zero, and whether it has both signs."""
 
     def __init__(self, joints: int) -> None:
-        self._visits = np.zeros(joints, dtype=int)
+        self._visits, self._along = np.zeros(joints, dtype=int), np.zeros(joints, dtype=int)
+        self._follows = np.ones(joints, dtype=bool)
         self._channel = ""
 
     def update(self, stretch: Stretch) -> None:
         """Take the next stretch into account."""
-        self._channel = stretch.effort
-        for joint, values in enumerate(stretch.new()[self._channel]):
-            size, deviation = np.abs(values), float(np.std(values))
-            near, far = size < NEAR * deviation, size > FAR * deviation
-            at_zero = near[near | far]
-            self._visits[joint] += np.count_nonzero(at_zero[1:] & ~at_zero[:-1])
+        self._channel, new = stretch.effort, stretch.new()
+        for joint, (values, position) in enumerate(zip(new[self._channel], new["position"], strict=True)):
+            deviation = float(np.std(values))
+            self._visits[joint] += _visits(values, deviation)
+            direction = _direction(position)
+            along = (direction * values)[direction != 0.0]
+            self._along[joint] += _visits(along, deviation)
+            self._follows[joint] &= bool(np.all(along >= 0.0))
 
     def defects(self, facts: Facts) -> list[Defect]:
-        """State the joints that come to zero often and never pass it."""
-        channel = self._channel
-        one_sign = (facts.low[channel] >= 0.0) | (facts.high[channel] <= 0.0)
-        return [
-            Defect(
-                UNSIGNED,
-                channel,
-                joint + 1,
-                int(self._visits[joint]),
-                (),
-                f"The {channel} of joint {joint + 1} comes to zero {self._visits[joint]} times and never "
-                "changes its sign: it is a magnitude, or one sign is cut off. Map the signed channel, "
-                "or leave this one out by a scale of 0.",
+        """State the joints that come to zero often and never pass it, by themselves or along the speed."""
+        low, high = facts.low[self._channel], facts.high[self._channel]
+        found = []
+        for joint, one_sign in enumerate((low >= 0.0) | (high <= 0.0)):
+            visits = (self._visits if one_sign else self._along * self._follows)[joint]
+            if visits < LEAST_VISITS or not facts.travels(joint):
+                continue
+            says = (
+                "never changes its sign: it is a magnitude, or one sign is cut off"
+                if one_sign
+                else "never passes it while the joint moves: it is a magnitude with the sign of the speed"
             )
-            for joint in map(int, np.flatnonzero(one_sign & (self._visits >= LEAST_VISITS)))
-            if facts.travels(joint)
-        ]
+            statement = (
+                f"The {self._channel} of joint {joint + 1} comes to zero {visits} times and {says}. "
+                "Map the signed channel, or leave this one out by a scale of 0."
+            )
+            found.append(Defect(UNSIGNED, self._channel, joint + 1, int(visits), (), statement))
+        return found
+
+
+def _visits(values: Samples, deviation: float) -> int:
+    """Count how often values come from far to zero."""
+    size = np.abs(values)
+    near, far = size < NEAR * deviation, size > FAR * deviation
+    at_zero = near[near | far]
+    return int(np.count_nonzero(at_zero[1:] & ~at_zero[:-1]))
+
+
+def _direction(position: Samples) -> Samples:
+    """Give the sign of the speed where a joint moves clearly, and 0 elsewhere."""
+    travel = np.zeros(len(position))
+    travel[REACH_ROWS:-REACH_ROWS] = position[2 * REACH_ROWS :] - position[: -2 * REACH_ROWS]
+    return np.asarray(np.where(np.abs(travel) > FAR * np.std(travel), np.sign(travel), 0.0))

@@ -524,6 +524,27 @@ def test_a_torque_without_a_sign_is_a_magnitude(change, found):
     assert [one.joint for one in defects if one.kind == "unsigned_torque"] == found
 
 
+@pytest.mark.parametrize(
+    ("change", "found"),
+    [
+        (lambda own, speed: np.abs(own) * np.sign(speed), [2]),
+        (lambda own, speed: own, []),
+        (lambda own, speed: own + 4.0 * np.sign(speed), []),
+        (lambda own, speed: speed, []),
+    ],
+    ids=["magnitude along the speed", "signed", "much friction", "the speed"],
+)
+def test_a_magnitude_that_was_given_the_sign_of_the_speed_is_one(change, found):
+    time = np.arange(0.0, 20.0, 4e-3)
+    position = np.column_stack([np.sin(time), np.cos(1.3 * time)])
+    speed = -np.sin(1.3 * time)
+    torque = np.column_stack([np.cos(time), np.sin(2.9 * time + 0.4) + 2.0 * np.sin(3.1 * time)])
+    torque += 0.01 * np.random.default_rng(8).normal(size=torque.shape)
+    torque[:, 1] = change(torque[:, 1], speed)
+    defects = log_from_arrays("planted", time, position, torque).defects
+    assert [one.joint for one in defects if one.kind == "unsigned_torque"] == found
+
+
 def test_a_torque_that_is_held_for_half_a_log_is_stuck_though_its_recorder_repeats_rows():
     """One recorder in four drops every sixth packet and repeats the last value."""
     rng = np.random.default_rng(4)
