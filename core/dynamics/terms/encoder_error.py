@@ -51,7 +51,7 @@ class EncoderEccentricity(AllJointsTerm):
             MotionState(sine, cosine * dq, cosine * ddq - sine * dq**2),
             MotionState(cosine, -sine * dq, -sine * ddq - cosine * dq**2),
         )
-        return [_change(self.believed, state, own, error) for error in errors]
+        return _changes(self.believed, state, own, errors)
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,10 +69,18 @@ class PositionScale(AllJointsTerm):
         error = MotionState(
             *(series[:, [own]] for series in (state.position, state.velocity, state.acceleration))
         )
-        return [_change(self.believed, state, own, error)]
+        return _changes(self.believed, state, own, (error,))
 
 
-def _change(believed: Prediction, state: MotionState, own: int, error: MotionState) -> JointSeries:
-    """Give minus the change of torque with an error of a joint (from 0), to first order."""
-    shift = MotionState(*(-SMALL * series for series in (error.position, error.velocity, error.acceleration)))
-    return np.asarray((believed.torque(shift_joint(state, own, shift)) - believed.torque(state)) / SMALL)
+def _changes(
+    believed: Prediction, state: MotionState, own: int, errors: tuple[MotionState, ...]
+) -> list[JointSeries]:
+    """Give minus the change of torque with each error of a joint (from 0), to first order."""
+    plain = believed.torque(state)
+    out = []
+    for error in errors:
+        shift = MotionState(
+            *(-SMALL * series for series in (error.position, error.velocity, error.acceleration))
+        )
+        out.append((believed.torque(shift_joint(state, own, shift)) - plain) / SMALL)
+    return out

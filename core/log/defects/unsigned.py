@@ -15,13 +15,11 @@ UNSIGNED = "unsigned_torque"
 NEAR = 0.03
 """Share of the channel's deviation within which it is at zero."""
 FAR = 0.3
-"""Share beyond which it has left zero."""
+"""Share beyond which it has left zero; of a joint's travel, beyond which it moves clearly."""
 LEAST_VISITS = 5
 """How often it comes from far to zero at least. Set by hand: once or twice is chance."""
-
-
 REACH_ROWS = 5
-"""Rows before and after a row between which the joint moves clearly, or its direction is not asked for."""
+"""Rows before and after a row between which its direction is taken, where the joint travels `FAR` there."""
 
 
 class Unsigned:
@@ -37,10 +35,10 @@ class Unsigned:
         self._channel, new = stretch.effort, stretch.new()
         for joint, (values, position) in enumerate(zip(new[self._channel], new["position"], strict=True)):
             deviation = float(np.std(values))
-            self._visits[joint] += _visits(values, deviation)
+            self._visits[joint] += _count_visits(values, deviation)
             direction = _direction(position)
             along = (direction * values)[direction != 0.0]
-            self._along[joint] += _visits(along, deviation)
+            self._along[joint] += _count_visits(along, deviation)
             self._follows[joint] &= bool(np.all(along >= 0.0))
 
     def defects(self, facts: Facts) -> list[Defect]:
@@ -64,7 +62,7 @@ class Unsigned:
         return found
 
 
-def _visits(values: Samples, deviation: float) -> int:
+def _count_visits(values: Samples, deviation: float) -> int:
     """Count how often values come from far to zero."""
     size = np.abs(values)
     near, far = size < NEAR * deviation, size > FAR * deviation
