@@ -16,6 +16,7 @@ ConflictName = Literal[
     "convention",
     "link_length",
     "gravity_compensated",
+    "position_linkage",
     "time_base",
     "time_offset",
     "unit",

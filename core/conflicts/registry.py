@@ -13,6 +13,7 @@ from .kinds.gravity_compensated import GravityCompensated
 from .kinds.link_length import LinkLength
 from .kinds.mounting import Mounting
 from .kinds.other_signal import OtherSignal
+from .kinds.position_linkage import PositionLinkage
 from .kinds.position_sign import PositionSign
 from .kinds.torque_sign import TorqueSign
 from .kinds.unit import Unit
@@ -25,6 +26,7 @@ _LISTED: tuple[Conflict, ...] = (
     Mounting(),
     GravityCompensated(),
     ChannelsSwapped(),
+    PositionLinkage(),
     ZeroQuarterTurn(),
     ZeroOffset(),
     Convention(),

@@ -43,12 +43,16 @@ class Samples:
         """Read the motion as an assignment does; torques stay as measured."""
         position = assignment.position
         speed = 1.0 / assignment.time_factor
+        velocity = position.of(self.velocity, rate=True) * speed
+        direction = np.sign(position.factor) * self.direction[:, list(position.source)]
+        # Of a sum only the sign of the filtered velocity is known.
+        direction = np.where(list(map(bool, position.added)), np.sign(velocity), direction)
         return replace(
             self,
             position=position.of(self.position),
-            velocity=position.of(self.velocity, rate=True) * speed,
+            velocity=velocity,
             acceleration=position.of(self.acceleration, rate=True) * speed**2,
-            direction=np.sign(position.factor) * self.direction[:, list(position.source)],
+            direction=direction,
             usable=self.usable[:, list(position.source)],
         )
 

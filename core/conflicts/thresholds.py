@@ -213,6 +213,14 @@ class Zero:
 
 
 @dataclass(frozen=True)
+class Linkage:
+    """Describe axes of which angles add up. Set by hand."""
+
+    parallel: float = 0.99
+    """Cosine of the angle between two axes from which on they are parallel, 8 degrees."""
+
+
+@dataclass(frozen=True)
 class PositionForces:
     """Describe forces that follow positions, as the rival of a correction. All are set by hand."""
 
@@ -241,4 +249,4 @@ class OtherSignal:
 
 DOUBT, TRIAL, DECISION, MOUNTING, COMPENSATION = Doubt(), Trial(), Decision(), Mounting(), Compensation()
 TIME_BASE, TIME_OFFSET, LENGTH, RATIO, UNIT = TimeBase(), TimeOffset(), Length(), Ratio(), Unit()
-POSITION_FORCES, OTHER_SIGNAL, ZERO = PositionForces(), OtherSignal(), Zero()
+POSITION_FORCES, OTHER_SIGNAL, ZERO, LINKAGE = PositionForces(), OtherSignal(), Zero(), Linkage()

@@ -5,7 +5,7 @@ are the same for every offset, and so all of them are bounded with the products 
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -100,7 +100,7 @@ def _later(channels: Channels, place: int) -> Channels:
     """Take the torques at an offset, which come after those at the offsets before."""
     joints = len(channels.source)
     source = tuple(place * joints + own for own in channels.source)
-    return Channels(source, channels.factor, channels.offset)
+    return replace(channels, source=source)
 
 
 def _vertex(bounds: np.ndarray, best: int) -> float:

@@ -84,6 +84,24 @@ def mounting(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoi
     return Spoilt(replace(robot, gravity=turn.apply(true)), log, "mounting", gravity=true)
 
 
+def position_linkage(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
+    """Count one position together with that of the joint before, about a parallel axis; else nothing."""
+    turning = [link for link in robot.links if link.kind == "revolute"]
+    pairs = [
+        (robot.links[link.antecedent - 1].joint, link.joint)
+        for link in turning
+        if link.antecedent and np.isclose(abs(link.rotation[2, 2]), 1.0)
+    ]
+    if not pairs:
+        return Spoilt(robot, log, None)
+    plain = Assignment.as_measured(log.joints)
+    other, joint = pairs[int(rng.integers(len(pairs)))]
+    linked = plain.position.with_added(float(rng.choice([-1.0, 1.0])), other - 1, joint - 1)
+    return Spoilt(
+        robot, assigned(log, replace(plain, position=linked)), "position_linkage", (joint,), "position"
+    )
+
+
 def zero_quarter_turn(robot: RobotModel, log: JointLog, rng: np.random.Generator) -> Spoilt:
     """Move the zero of one joint by quarter turns."""
     plain, joint = Assignment.as_measured(log.joints), _joint(robot, rng)
@@ -179,6 +197,7 @@ SPOILERS: Mapping[str, Spoiler] = {
         channels_swapped,
         other_order,
         mounting,
+        position_linkage,
         zero_quarter_turn,
         zero_offset,
         unit,

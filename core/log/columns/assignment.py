@@ -13,9 +13,9 @@ from ...arrays import JointSeries
 from ..channels import TIME
 from ..model import Defect, JointLog, LogRows, LogSource
 from .binding import Binding
+from .linkage import LINKED, Added, linked
 from .mapping import RATE
 
-_LIKE_POSITION = ("position", "velocity", "position_ref", "velocity_ref")
 _LIKE_TORQUE = ("torque", "current", "torque_ref", "command", "temperature")
 _SIGNLESS = "temperature"
 _MISSING = "missing_torque"
@@ -29,22 +29,23 @@ class Channels:
     factor: tuple[float, ...]
     offset: tuple[float, ...]
     """Added to a position after the factor, rad or m; zero for torques."""
+    added: tuple[Added, ...]
+    """What is then added of other joints' positions; nothing for torques."""
 
     @classmethod
     def as_measured(cls, joints: int) -> "Channels":
         """Take every channel as it was measured."""
-        return cls(tuple(range(joints)), (1.0,) * joints, (0.0,) * joints)
+        return cls(tuple(range(joints)), (1.0,) * joints, (0.0,) * joints, ((),) * joints)
 
     @classmethod
     def picked(cls, several: Sequence["Channels"]) -> "Channels":
         """Take the first joint as the first of several says, the second as the second, and so on."""
         rows = [own.of_joint(joint) for joint, own in enumerate(several)]
-        source, factor, offset = zip(*rows, strict=True)
-        return cls(source, factor, offset)
+        return cls(*zip(*rows, strict=True))
 
-    def of_joint(self, joint: int) -> tuple[int, float, float]:
-        """Give source, factor and offset of a joint (from 0)."""
-        return self.source[joint], self.factor[joint], self.offset[joint]
+    def of_joint(self, joint: int) -> tuple[int, float, float, Added]:
+        """Give source, factor and offset of a joint (from 0), and what is added to it."""
+        return self.source[joint], self.factor[joint], self.offset[joint], self.added[joint]
 
     def exchanged(self, first: int, second: int) -> "Channels":
         """Exchange the channels of two joints, with their factors and offsets."""
@@ -54,23 +55,30 @@ class Channels:
 
     def in_order(self, order: Sequence[int]) -> "Channels":
         """Take, for every joint, the channel of another, with its factor and offset."""
-        source, factor, offset = zip(*(self.of_joint(joint) for joint in order), strict=True)
-        return Channels(source, factor, offset)
+        source, factor, offset, _ = zip(*map(self.of_joint, order), strict=True)
+        return Channels(source, factor, offset, self.added)
 
     def scaled(self, factor: float, *joints: int) -> "Channels":
         """Multiply the channels of some joints."""
         scale = [factor if joint in joints else 1.0 for joint in range(len(self.source))]
-        return Channels(self.source, _times(self.factor, scale), _times(self.offset, scale))
+        return replace(self, factor=_times(self.factor, scale), offset=_times(self.offset, scale))
 
     def moved(self, offset: float, joint: int) -> "Channels":
         """Add an offset to the channel of one joint."""
         added = [value + (offset if place == joint else 0.0) for place, value in enumerate(self.offset)]
         return replace(self, offset=tuple(added))
 
+    def with_added(self, factor: float, other: int, joint: int) -> "Channels":
+        """Add the position of another joint, times a factor, to that of a joint."""
+        own = dict(self.added[joint])
+        own[other] = own.get(other, 0.0) + factor
+        pairs = tuple((place, value) for place, value in sorted(own.items()) if value)
+        return replace(self, added=(*self.added[:joint], pairs, *self.added[joint + 1 :]))
+
     def of(self, measured: JointSeries, *, rate: bool = False) -> JointSeries:
         """Give the joints' series; a rate of change has no offset."""
         scaled = measured[:, list(self.source)] * np.array(self.factor)
-        return np.asarray(scaled if rate else scaled + np.array(self.offset))
+        return linked(np.asarray(scaled if rate else scaled + np.array(self.offset)), self.added)
 
 
 @dataclass(frozen=True)
@@ -111,7 +119,7 @@ class AssignedSource:
         there = rows.channels()
         channels = {
             name: assignment.position.of(there[name], rate="velocity" in name)
-            for name in _LIKE_POSITION
+            for name in LINKED
             if name in there
         } | {name: assignment.torque.of(there[name]) for name in _LIKE_TORQUE if name in there}
         if _SIGNLESS in there:
@@ -143,7 +151,7 @@ def assigned(log: JointLog, assignment: Assignment) -> JointLog:
 
 def _is_answered(defect: Defect, assignment: Assignment) -> bool:
     """Tell whether a defect is that of a size which the assignment changes."""
-    channels = assignment.position if defect.channel in _LIKE_POSITION else assignment.torque
+    channels = assignment.position if defect.channel in LINKED else assignment.torque
     factor = 1.0 if defect.joint is None else channels.factor[channels.source.index(defect.joint - 1)]
     if defect.kind != "implausible_unit":
         return factor == 0.0 and defect.kind != _MISSING
@@ -174,7 +182,7 @@ def _assigned_defect(defect: Defect, assignment: Assignment) -> Defect:
     )
     if defect.joint is None:
         return replace(defect, intervals=intervals)
-    like = assignment.position if defect.channel in _LIKE_POSITION else assignment.torque
+    like = assignment.position if defect.channel in LINKED else assignment.torque
     joint = like.source.index(defect.joint - 1)
     level = None if defect.level is None else defect.level * _factor(defect, like.factor[joint])
     return replace(defect, intervals=intervals, joint=joint + 1, level=level)
@@ -188,12 +196,12 @@ def _factor(defect: Defect, factor: float) -> float:
 def _assigned_binding(binding: Binding, assignment: Assignment) -> Binding:
     if binding.name == TIME:
         return binding
-    channels = assignment.position if binding.name in _LIKE_POSITION else assignment.torque
+    channels = assignment.position if binding.name in LINKED else assignment.torque
     if binding.name == _SIGNLESS:
-        channels = Channels(channels.source, (1.0,) * len(channels.source), (0.0,) * len(channels.source))
+        channels = replace(Channels.as_measured(len(channels.source)), source=channels.source)
     if "velocity" in binding.name:
         channels = replace(channels, offset=(0.0,) * len(channels.source))
-    return binding.reassigned(channels.source, channels.factor, channels.offset)
+    return binding.reassigned(channels.source, channels.factor, channels.offset, channels.added)
 
 
 def mapping_of(log: JointLog, prismatic: Collection[int] = ()) -> dict[str, object]:

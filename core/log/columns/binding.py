@@ -8,6 +8,7 @@ import numpy as np
 
 from ...arrays import JointSeries, Series
 from ..channels import CHANNELS, TIME, UNITS, Unit
+from .linkage import Added, as_linkage, linked, offset_before, one_after_another
 
 ROUNDING = 1e-9
 """Relative error that unit and scale may have from being multiplied and divided."""
@@ -22,6 +23,8 @@ class Binding:
     gain: tuple[float, ...]
     bias: tuple[float, ...]
     units: tuple[str, ...] = ()
+    added: tuple[Added, ...] = ()
+    """What is then added of other joints' values, in SI; empty where nothing is."""
 
     def convert(self, block: Series) -> JointSeries:
         """Turn the channel's columns (columns by rows) into SI (rows by joints)."""
@@ -32,24 +35,32 @@ class Binding:
             values *= np.array(self.gain)
         if any(self.bias):
             values += np.array(self.bias)
-        return values
+        return linked(values, self.added)
 
     def reassigned(
-        self, source: tuple[int, ...], factor: tuple[float, ...], offset: tuple[float, ...]
+        self,
+        source: tuple[int, ...],
+        factor: tuple[float, ...],
+        offset: tuple[float, ...],
+        added: tuple[Added, ...],
     ) -> "Binding":
-        """Give every joint another column, multiplied by a factor, with an offset added in SI."""
+        """Give every joint another's values, multiplied by a factor, an offset, and others' values added.
+
+        What the binding adds already is added before.
+        """
+        whole = one_after_another(self.added or ((),) * len(source), source, factor, added)
+        gain, bias = (np.array(own)[list(source)] * factor for own in (self.gain, self.bias))
         return Binding(
             self.name,
             tuple(self.columns[joint] for joint in source),
-            tuple(self.gain[joint] * own for joint, own in zip(source, factor, strict=True)),
-            tuple(
-                self.bias[joint] * own + add for joint, own, add in zip(source, factor, offset, strict=True)
-            ),
+            tuple(gain.tolist()),
+            tuple((bias + offset_before(offset, whole, added)).tolist()),
             tuple(self.units[joint] for joint in source) if self.units else (),
+            whole,
         )
 
     def as_mapping(self, prismatic: Collection[int] = ()) -> dict[str, object]:
-        """Write the binding as a mapping says it: columns, unit, and scale and offset where they are needed.
+        """Write the binding as a mapping says it: columns, unit, and scale, offset and linkage where needed.
 
         Parameters
         ----------
@@ -78,6 +89,8 @@ class Binding:
             mapping["scale"] = scale
         if any(offset):
             mapping["offset"] = offset
+        if any(self.added):
+            mapping["linkage"] = as_linkage(self.added)
         return mapping
 
     def _units(self, prismatic: Collection[int]) -> list[Unit]:

@@ -247,7 +247,7 @@ def _binding(channel: str, request: ChannelRequest) -> Binding:
     scales = tuple(unit.factor * scale for unit, scale in zip(units, request.scales, strict=True))
     offsets = zip(units, request.offsets, strict=True)
     shifts = tuple(unit.factor * (offset + unit.offset) for unit, offset in offsets)
-    return Binding(channel, request.columns, scales, shifts, named)
+    return Binding(channel, request.columns, scales, shifts, named, request.linkage)
 
 
 def _require(table: Table, channels: Sequence[Binding]) -> None:

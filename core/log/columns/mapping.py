@@ -8,8 +8,9 @@ passes as absent.
      "torque": {"columns": ["m1", "m2"], "unit": "N m"}, "temperature": null, "rate_hz": 250.0}
 
 A value becomes SI as unit(scale * value + offset): `scale` and `offset` lead to the declared unit (with
-`counts`: to rad or N m) and the unit leads to SI. `null` leaves a channel out although its default names are
-there.
+`counts`: to rad or N m) and the unit leads to SI. `linkage` then adds positions of joints to each other, as
+`[{"joint": 3, "adds": 2}]` where axis 3 is counted from the horizontal. `null` leaves a channel out although
+its default names are there.
 """
 
 import math
@@ -19,6 +20,7 @@ from dataclasses import dataclass, field
 from ...errors import LogError
 from ...fields import Fields
 from ..channels import CHANNELS, EFFORTS, TIME, UNITS
+from .linkage import LARGEST_FACTOR, LINKED, Added, are_told_apart
 
 RATE = "rate_hz"
 MAX_MAPPED_COLUMNS = 64
@@ -50,8 +52,14 @@ _CHANNEL_FIELDS = {
             "offset": "a number, or a list with one per column",
         }
     )
+    | ({"linkage": "a list of objects with joint, adds and factor"} if channel in LINKED else {})
     | {"unit": f"one of {', '.join(units)}, or a list with one per column"}
     for channel, units in UNITS.items()
+}
+_LINKAGE_FIELDS = {
+    "joint": "the number of a joint, from 1",
+    "adds": "the number of the joint whose value, as it was read, is added",
+    "factor": f"a number other than 0 between -{LARGEST_FACTOR:g} and {LARGEST_FACTOR:g}, 1 by default",
 }
 
 
@@ -63,6 +71,8 @@ class ChannelRequest:
     units: tuple[str, ...]
     scales: tuple[float, ...]
     offsets: tuple[float, ...]
+    linkage: tuple[Added, ...] = ()
+    """What is added to each joint's values; empty where nothing is."""
 
 
 @dataclass(frozen=True)
@@ -143,7 +153,26 @@ def _channel(top: Fields, channel: str) -> ChannelRequest:
     scales = _numbers(fields, "scale", 1.0, len(columns))
     if 0.0 in scales and (channel not in EFFORTS or not any(scales)):
         fields.refuse("scale", "is zero")
-    return ChannelRequest(columns, units, scales, _numbers(fields, "offset", 0.0, len(columns)))
+    offsets = _numbers(fields, "offset", 0.0, len(columns))
+    return ChannelRequest(columns, units, scales, offsets, _linkage(fields, len(columns)))
+
+
+def _linkage(fields: Fields, count: int) -> tuple[Added, ...]:
+    """Read what is added to the values of each joint."""
+    if not fields.has("linkage"):
+        return ()
+    added: list[Added] = [()] * count
+    for place, item in enumerate(fields.items("linkage", most=count**2)):
+        pointer = f"{fields.pointer}/linkage/{place}"
+        own = MappingFields(item, f"linkage of {fields.where}", pointer, _LINKAGE_FIELDS)
+        joint, other = (own.integer(name, (1, count)) for name in ("joint", "adds"))
+        factor = own.number("factor", 1.0)
+        if not 0.0 < abs(factor) <= LARGEST_FACTOR:
+            own.refuse("factor", "is out of range")
+        added[joint - 1] += ((other - 1, factor),)
+    if not are_told_apart(added):
+        fields.refuse("linkage", "leaves a joint without values of its own")
+    return tuple(added)
 
 
 def _columns(fields: Fields) -> tuple[str, ...]:

@@ -15,13 +15,19 @@ CHANGES = {
     "sign": lambda one: replace(one, torque=one.torque.scaled(-1.0, 1)),
     "order": lambda one: replace(one, position=one.position.exchanged(0, 2)),
     "zero": lambda one: replace(one, position=one.position.moved(np.pi / 2, 1)),
+    "linkage": lambda one: replace(one, position=one.position.with_added(-1.0, 1, 2)),
+    "linkage, order, sign and zero": lambda one: replace(
+        one, position=one.position.exchanged(0, 1).scaled(-2.0, 0).moved(0.3, 2).with_added(1.0, 0, 2)
+    ),
     "all at once": lambda one: Assignment(
         one.position.exchanged(0, 1).scaled(-1.0, 0).moved(0.3, 2), one.torque.scaled(1e-3, 2).exchanged(1, 2)
     ),
 }
 
+AS_MEASURED = Assignment.as_measured(3)
 
-@pytest.fixture(params=["SI", "other units"])
+
+@pytest.fixture(params=["SI", "other units", "linked"])
 def log(request, tmp_path):
     rng, time = np.random.default_rng(1), np.arange(600) / 100.0
     series = np.sin(np.outer(time, rng.uniform(1.0, 4.0, 9)))
@@ -32,6 +38,13 @@ def log(request, tmp_path):
         mapping = {
             "position": {"columns": names[:3], "unit": "deg", "offset": [0.0, 10.0, 0.0]},
             "torque": {"columns": names[6:], "unit": "N m", "scale": [1.0, -2.0, 1.0]},
+        }
+    if request.param == "linked":
+        linkage = [{"joint": 3, "adds": 2}, {"joint": 2, "adds": 1, "factor": -0.5}]
+        shared = {"linkage": linkage, "scale": [1.0, -1.0, 1.0]}
+        mapping = {
+            "position": {"columns": names[:3], "unit": "rad", "offset": [0.0, 0.2, -0.1], **shared},
+            "velocity": {"columns": names[3:6], "unit": "rad/s", **shared},
         }
     path = tmp_path / "log.csv"
     table = np.column_stack([time, series])
@@ -74,6 +87,19 @@ def test_the_mapping_of_an_assigned_log_reads_its_file_as_the_log_is_whichever_j
 
 def test_a_log_as_measured_is_the_log_itself(log):
     assert assigned(log[1], Assignment.as_measured(3)) is log[1]
+
+
+def test_linked_positions_are_sums_of_those_that_were_read(log):
+    read = log[1]
+    linked = assigned(read, CHANGES["linkage"](Assignment.as_measured(3)))
+    before, after = whole_rows(read), whole_rows(linked)
+    for name in ("position", "velocity"):
+        own, whole = before.channels()[name], after.channels()[name]
+        np.testing.assert_allclose(whole[:, 2], own[:, 2] - own[:, 1])
+        np.testing.assert_array_equal(whole[:, :2], own[:, :2])
+    np.testing.assert_array_equal(after.torque, before.torque)
+    back = assigned(linked, replace(AS_MEASURED, position=AS_MEASURED.position.with_added(1.0, 1, 2)))
+    np.testing.assert_allclose(whole_rows(back).position, before.position, atol=1e-12)
 
 
 def test_what_is_exchanged_twice_is_as_it_was(log):

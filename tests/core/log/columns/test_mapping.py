@@ -137,6 +137,9 @@ def test_fewer_torques_than_joints_are_refused_with_the_counts(tmp_path):
     assert refusal(tmp_path, columns).evidence["columns"] == {"position": 3, "torque": 2}
 
 
+TWO = {"columns": ["a", "b"], "unit": "rad"}
+
+
 @pytest.mark.parametrize(
     ("mapping", "words"),
     [
@@ -159,6 +162,15 @@ def test_fewer_torques_than_joints_are_refused_with_the_counts(tmp_path):
         ({"position": {"columns": "q_1"}}, "position: columns is not a list"),
         ({"position": {"columns": []}}, "position: columns holds 0 entries"),
         ({"time": {"columns": ["t"]}}, "time holds a field that does not exist: columns"),
+        ({"torque": {**TWO, "linkage": []}}, "torque holds a field that does not exist: linkage"),
+        ({"position": {**TWO, "linkage": {"joint": 2}}}, "position: linkage is not a list"),
+        ({"position": {**TWO, "linkage": [{"joint": 2}]}}, "linkage of position: adds is missing"),
+        ({"position": {**TWO, "linkage": [{"joint": 3, "adds": 1}]}}, "linkage of position: joint is"),
+        ({"position": {**TWO, "linkage": [{"joint": 2, "adds": 1, "factor": 0}]}}, "factor is out of range"),
+        (
+            {"position": {**TWO, "linkage": [{"joint": 2, "adds": 1}, {"joint": 1, "adds": 2}]}},
+            "position: linkage leaves a joint without values of its own",
+        ),
         ({"rate_hz": -1.0}, "rate_hz is out of range"),
         ({"rate_hz": True}, "rate_hz is not a number"),
     ],
@@ -185,7 +197,9 @@ json_values = st.recursive(
     lambda inner: (
         st.lists(inner, max_size=3)
         | st.dictionaries(
-            st.sampled_from(["columns", "column", "unit", "scale", "offset"]), inner, max_size=4
+            st.sampled_from(["columns", "column", "unit", "scale", "offset", "linkage", "joint", "adds"]),
+            inner,
+            max_size=4,
         )
     ),
     max_leaves=8,
