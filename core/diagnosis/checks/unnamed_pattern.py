@@ -15,7 +15,15 @@ import numpy as np
 from ...arrays import Vector
 from ...dynamics.term import Term
 from ...dynamics.terms.encoder_error import PositionScale
-from ...dynamics.terms.unnamed_pattern import FACTORS, PATTERNS, GainDrift, Numbers, OtherTorques, Trace
+from ...dynamics.terms.unnamed_pattern import (
+    FACTORS,
+    PATTERNS,
+    GainDrift,
+    Numbers,
+    OtherTorques,
+    SmoothedTorque,
+    Trace,
+)
 from ..causes.protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting
 from ..causes.shared.own_joint import OwnJointCause
 from ..dataset.dataset import Dataset
@@ -31,13 +39,15 @@ SWINGS = tuple(float(rate) for rate in np.geomspace(0.7, 4.0, 12))
 """Rates of a swing, Hz."""
 LOOPS = tuple(float(rate) for rate in np.geomspace(1.0, 20.0, 12))
 """Bandwidths of a controller's loop, Hz."""
+MEANS = tuple(float(seconds) for seconds in np.geomspace(0.02, 0.3, 7))
+"""Lengths of a moving mean, s."""
 SWITCHES = 16
 """Parts of a log between which friction may switch; refined to the row."""
 DRIFT = "drift"
 """A gain of the torque channel that changes with time, whose column is of the model's torque."""
-OTHERS, SCALE = "others", "scale"
-"""Shares of other joints' torques in the channel, and a scale of the joint's positions."""
-_NAMES = (*PATTERNS, DRIFT, OTHERS, SCALE)
+OTHERS, SCALE, SMOOTH = "others", "scale", "smooth"
+"""Shares of other joints' torques in the channel, a scale of the joint's positions, and a smoothed torque."""
+_NAMES = (*PATTERNS, DRIFT, OTHERS, SCALE, SMOOTH)
 
 _WORDS = {
     "levels": "two levels between which it switches by itself",
@@ -62,6 +72,7 @@ class UnnamedPatternCause(OwnJointCause):
         """List all patterns with their numbers."""
         patterns = _patterns(at.dataset.joints, at.joint, _seconds(at.dataset))
         channels: list[tuple[str, Numbers]] = [(DRIFT, _span(at.dataset)), (SCALE, ())]
+        channels += [(SMOOTH, (seconds,)) for seconds in MEANS]
         channels += [(OTHERS, ())] * (at.dataset.joints > 1)
         return [_scalars(name, numbers) for name, numbers in (*patterns, *_switches(at.dataset), *channels)]
 
@@ -99,6 +110,8 @@ class UnnamedPatternCause(OwnJointCause):
             return GainDrift(at.joint, at.operating_point, *numbers)
         if name == OTHERS:
             return OtherTorques(at.joint, at.operating_point)
+        if name == SMOOTH:
+            return SmoothedTorque(at.joint, at.operating_point, *numbers)
         if name == SCALE:
             return PositionScale(at.joint, at.operating_point)
         return Trace(at.joint, name, numbers)
@@ -207,6 +220,8 @@ def _pattern_words(pattern: str, numbers: Numbers) -> str:
     return {
         "clock": f"a period of {1.0 / numbers[0]:.3g} s, independent of the motion",
         "friction": f"its own friction, which switches at {numbers[0]:.3g} s",
+        SMOOTH: "its own torque, smoothed forwards and backwards as by a moving mean over "
+        f"{1e3 * numbers[0]:.2g} ms",
         "swing": f"an oscillation at about {numbers[0]:.2g} Hz, independent of the motion",
         "loop": "its dry friction as it would be if the joint lagged behind the logged positions, in a loop "
         f"of about {numbers[0]:.2g} Hz",

@@ -12,6 +12,7 @@ from functools import lru_cache
 from itertools import accumulate, repeat
 
 import numpy as np
+from scipy.ndimage import uniform_filter1d
 from scipy.signal import lfilter
 
 from ...arrays import Samples
@@ -99,6 +100,24 @@ class OtherTorques(OneJointTerm):
     def columns(self, state: MotionState) -> list[Samples]:
         """Give the predicted torques of the other joints."""
         return list(np.delete(self.believed.applied(state), self.joint - 1, axis=1).T)
+
+
+@dataclass(frozen=True, eq=False)
+class SmoothedTorque(OneJointTerm):
+    """Model a torque that was smoothed alike forwards and backwards: it changes before its cause does."""
+
+    believed: Prediction
+    seconds: float
+    """Length of the moving mean, s."""
+    symbols = (("share", "1", None),)
+    kind = "unlisted"
+    has_memory = True
+
+    def columns(self, state: MotionState) -> list[Samples]:
+        """Give the mean of the joint's predicted torque about every instant, less the torque."""
+        torque = self.believed.applied(state)[:, self.joint - 1]
+        samples = 1 + 2 * round(0.5 * self.seconds / step_of(state))
+        return [uniform_filter1d(torque, samples, mode="nearest") - torque]
 
 
 def _speeds(own: int, numbers: Numbers, state: MotionState) -> list[Samples]:
