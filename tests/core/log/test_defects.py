@@ -545,6 +545,29 @@ def test_a_magnitude_that_was_given_the_sign_of_the_speed_is_one(change, found):
     assert [one.joint for one in defects if one.kind == "unsigned_torque"] == found
 
 
+@pytest.mark.parametrize(
+    ("change", "found"),
+    [
+        (lambda own, speed: own, []),
+        (lambda own, speed: np.abs(own + 4.0), [3]),
+        (lambda own, speed: np.abs(own + 4.0) * np.sign(speed), [3]),
+        (lambda own, speed: -np.abs(own + 4.0) * np.sign(speed), [3]),
+        (lambda own, speed: np.full_like(own, 2.0), []),
+    ],
+    ids=["both signs", "one sign", "that of the speed", "the other", "none measured"],
+)
+@pytest.mark.parametrize("magnitude", [True, False], ids=["beside a magnitude", "beside none"])
+def test_beside_a_magnitude_the_sign_of_other_torques_is_to_be_shown(change, found, magnitude):
+    time = np.arange(0.0, 20.0, 4e-3)
+    position = np.column_stack([np.sin(time), np.cos(1.3 * time), np.sin(1.7 * time)])
+    torque = np.column_stack([np.cos(time) + np.sin(2.3 * time), np.sin(2.9 * time), np.sin(2.1 * time)])
+    torque[:, 2] = change(torque[:, 2], np.cos(1.7 * time))
+    torque[:, 1] = np.abs(torque[:, 1]) if magnitude else torque[:, 1]
+    defects = log_from_arrays("planted", time, position, torque).defects
+    assert [one.joint for one in defects if one.kind == "unsigned_torque"] == [2] * magnitude
+    assert [one.joint for one in defects if one.kind == "unknown_sign"] == found * magnitude
+
+
 def test_a_torque_that_is_held_for_half_a_log_is_stuck_though_its_recorder_repeats_rows():
     """One recorder in four drops every sixth packet and repeats the last value."""
     rng = np.random.default_rng(4)

@@ -16,10 +16,12 @@ from veritorque.core.diagnosis.checks.reservations import (
     beside_another_setup,
     beside_dead_zones,
     beside_mixed_channels,
+    beside_unknown_signs,
 )
 from veritorque.core.diagnosis.result import Finding, Gain, UnnamedPattern
 from veritorque.core.diagnosis.search.hypothesis import Candidate
 from veritorque.core.diagnosis.thresholds.checks import CONFIDENCE
+from veritorque.core.log.model import Defect
 
 SURE = 0.97
 
@@ -71,6 +73,17 @@ def test_channels_that_read_each_other_show_no_cause(statistic, mixes, doubtful)
     limited = beside_mixed_channels([own, zone], pattern, 200.0)
     assert [one.confidence for one in limited] == pytest.approx([0.5 if doubtful else SURE, SURE])
     assert beside_mixed_channels([own], None, 200.0) == [own]
+
+
+@pytest.mark.parametrize(("kind", "doubtful"), [("unknown_sign", True), ("standstill", False)])
+def test_beside_a_torque_that_may_be_a_magnitude_no_search_is_sure_of_a_cause(kind, doubtful):
+    dataset = eventful_scene().dataset
+    motion = dataset.motions[0]
+    log = replace(motion.log, defects=(Defect(kind, "torque", 3, 1, (), "made up"),))
+    own, zone = found(FrictionLoadDependent(), (2,), 0.3), found(TorqueDeadZone(), (3,), 0.1)
+    limited = beside_unknown_signs([own, zone], replace(dataset, motions=(replace(motion, log=log),)))
+    assert [one.confidence for one in limited] == pytest.approx([0.5 if doubtful else SURE, SURE])
+    assert ("torques of unknown sign" in {one.statistic for one in limited[0].evidence}) == doubtful
 
 
 GAINED = 0.2
