@@ -78,8 +78,8 @@ class Unsigned:
                 joint + 1,
                 facts.samples,
                 (),
-                f"The {self._channel} of joint {joint + 1} never has both signs in one direction of motion. As "
-                "other joints' are magnitudes, it may be one as well: map the signed channel.",
+                f"The {self._channel} of joint {joint + 1} never has both signs in one direction of motion. "
+                "As other joints' are magnitudes, it may be one as well: map the signed channel.",
             )
             for joint in map(int, np.flatnonzero(varies & ~np.array(shown)))
             if joint + 1 not in unsigned and facts.travels(joint)
@@ -114,5 +114,5 @@ def _signs(direction: Samples, values: Samples, clear: float) -> np.ndarray:
 
 
 def _is_signed(signs: np.ndarray) -> bool:
-    """Tell whether a torque has both signs in one direction, which no magnitude has, with or without a sign."""
+    """Tell whether a torque has both signs in one direction: no magnitude has, given a sign or not."""
     return bool(signs.all(axis=1).any())
