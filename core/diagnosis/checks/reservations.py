@@ -6,6 +6,7 @@ more than half of a joint's torque, the likeliest small correction is seldom the
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
@@ -115,10 +116,7 @@ def beside_unknown_signs(findings: Sequence[Finding], dataset: Dataset) -> list[
 
     What a magnitude lacks looks like a gain or a friction of its joint, and enters what all joints share.
     """
-    defects = (defect for motion in dataset.motions for defect in motion.log.defects)
-    joints = sorted({defect.joint for defect in defects if defect.kind == UNKNOWN_SIGN and defect.joint})
-    if not joints:
-        return list(findings)
+    joints = sorted(_of_unknown_sign(dataset))
     evidence = Evidence(
         "Joints whose torque may be a magnitude, as other joints' in the log are: "
         f"{', '.join(map(str, joints))}. No cause is sure beside them",
@@ -126,11 +124,17 @@ def beside_unknown_signs(findings: Sequence[Finding], dataset: Dataset) -> list[
         float(len(joints)),
     )
     return [
-        finding
-        if finding.member is None
-        else as_doubtful(replace(finding, evidence=(*finding.evidence, evidence)))
+        as_doubtful(replace(finding, evidence=(*finding.evidence, evidence)))
+        if joints and finding.member is not None
+        else finding
         for finding in findings
     ]
+
+
+def _of_unknown_sign(dataset: Dataset) -> set[int]:
+    """Give the joints, from 1, whose torque may be a magnitude in some log."""
+    defects = chain.from_iterable(motion.log.defects for motion in dataset.motions)
+    return {defect.joint for defect in defects if defect.kind == UNKNOWN_SIGN and defect.joint}
 
 
 def beside_another_setup(findings: Sequence[Finding], promising: float) -> tuple[Finding, ...]:
