@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import fdtrc
 
-from ...arrays import SquareMatrix, Vector
+from ...arrays import Matrix, SquareMatrix, Vector
 from ..causes.protocol import number_text
 from ..result import Evidence, Finding
 from ..search.fitter import HypothesisFitter
@@ -37,17 +37,17 @@ class Sizes:
     covariance: SquareMatrix
     blocks: int
     """Number of blocks that the covariance is from."""
+    contrasts: Matrix
+    """Sums of the sizes that are zero where all are one, in rows."""
 
     @property
     def p_value(self) -> float:
         """Give the probability of sizes so different if all are one, but for a share."""
-        count = len(self.sizes)
-        spread = self.covariance + ONE_SIZE.apart**2 * np.eye(count)
-        solved = np.linalg.solve(spread, np.column_stack([self.sizes, np.ones(count)]))
-        own, ones = solved.T @ self.sizes, solved.sum(axis=0)
-        apart = float(own[0] - own[1] ** 2 / ones[1])
-        freedom = count - 1
-        return float(fdtrc(freedom, max(self.blocks - count, 1), max(apart, 0.0) / freedom))
+        apart = self.contrasts @ self.sizes
+        allowed = self.covariance + ONE_SIZE.apart**2 * np.eye(len(self.sizes))
+        statistic = float(apart @ np.linalg.solve(self.contrasts @ allowed @ self.contrasts.T, apart))
+        left = max(self.blocks - len(self.sizes), 1)
+        return float(fdtrc(len(apart), left, statistic / len(apart)))
 
     @property
     def evidence(self) -> Evidence:
@@ -93,6 +93,7 @@ def _by_joint(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> Sizes
         found.sizes,
         found.covariance,
         found.blocks,
+        np.diff(np.eye(len(found.sizes)), axis=0),
     )
 
 
@@ -103,4 +104,7 @@ def _by_part(logs: BetweenLogs, index: int) -> Sizes | None:
     sizes, deviations = np.array(found).T
     names = [f"part {number}" for number in range(1, len(found) + 1)]
     covariance, blocks = np.diag(deviations**2), len(logs.fitted_blocks)
-    return Sizes("successive parts of the logs", names, sizes, covariance, blocks)
+    trend = np.arange(len(sizes)) - 0.5 * (len(sizes) - 1)
+    return Sizes(
+        "successive parts of the logs, by their trend,", names, sizes, covariance, blocks, trend[None]
+    )
