@@ -22,7 +22,7 @@ from .checks.instruments import Instruments
 from .checks.kurtosis import bounded_residual
 from .checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
 from .checks.lagging_reference import beside_reference, lagging_reference
-from .checks.reservations import beside_dead_zones, beside_mixed_channels
+from .checks.reservations import beside_dead_zones, beside_mixed_channels, beside_unknown_signs
 from .checks.samples import check_samples, dataset_of
 from .checks.spring_resonance import beside_what_swings
 from .checks.structure_left import StructureLeft, nothing_beside_structure
@@ -76,6 +76,7 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     findings = beside_reference(findings, lagging)
     most = max((own.statistic for own in comparisons), default=0.0)
     findings = beside_mixed_channels(findings, unnamed, most)
+    findings = beside_unknown_signs(findings, dataset)
     findings, swings = beside_what_swings(findings)
     doubted = any((lagging, swings, nothing_beside_structure(findings)))
     tell("predict the residual", 0.8)

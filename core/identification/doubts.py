@@ -43,6 +43,7 @@ DOUBTFUL = (
     "position_is_reference",
     "shared_position",
     "unsigned_torque",
+    "unknown_sign",
     MISSING,
     ONE_DIRECTION,
 )

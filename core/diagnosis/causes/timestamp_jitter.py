@@ -2,7 +2,8 @@
 
 Above the motion's bandwidth such positions carry their velocity times a time error that all joints share.
 Products of two joints' high-pass remainders are then on average proportional to products of their velocities;
-rounding and noise lack this property.
+rounding and noise lack this property. Positions that are held from row to row, as a slower recorder's are,
+have it: they are late by a time that all joints share, and say nothing of the stamps.
 """
 
 from collections.abc import Iterator
@@ -11,8 +12,9 @@ from itertools import chain
 
 import numpy as np
 
-from ...arrays import JointSeries, Vector
+from ...arrays import Instants, InstantSeries, JointSeries, Vector
 from ...dynamics.prediction import Prediction
+from ...log.model import LogRows
 from ...numerics.distributions import binomial_at_least, normal_tail
 from ...numerics.filtering import convolved
 from ...signals.derivative import differentiate_throughout
@@ -94,7 +96,18 @@ def _parts(segment: Segment) -> Iterator[tuple[JointSeries, JointSeries, float]]
     smooth = convolved(position, low_pass)
     remainder = position[reach:-reach] - smooth
     share = 1.0 - 2.0 * float(low_pass[reach]) + float(low_pass @ low_pass)
-    yield remainder, differentiate_throughout(smooth, rate_hz), share
+    velocity = differentiate_throughout(smooth, rate_hz)
+    instants = rows.time[0] + (reach + np.arange(len(velocity))) / rate_hz
+    if _held_share(rows, instants, velocity) < SAMPLE_CHECKS.jitter_held:
+        yield remainder, velocity, share
+
+
+def _held_share(rows: LogRows, instants: Instants, velocity: InstantSeries) -> float:
+    """Give the share of the motion, by its mean square speed, in which all positions repeat."""
+    usual = np.maximum(np.mean(velocity**2, axis=0), np.finfo(float).tiny)
+    moving = np.interp(rows.time[1:], instants, np.sum(velocity**2 / usual, axis=1))
+    held = np.all(rows.position[1:] == rows.position[:-1], axis=1)
+    return float(moving @ held / max(float(np.sum(moving)), np.finfo(float).tiny))
 
 
 def _products(part: tuple[JointSeries, JointSeries, float]) -> tuple[np.ndarray, np.ndarray]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays import JointVector
+from ...arrays import JointVector, SquareMatrix
 from ...numerics.distributions import chi2_tail
 from ..regression.gls import Fit
 from ..residual.blocks import row_blocks
@@ -27,12 +27,19 @@ CONFIRMED = "joints that confirm it"
 
 @dataclass(frozen=True, eq=False)
 class SizeByJoint:
-    """Hold the size of a finding by each joint that it acts on, over its size by all, with deviations."""
+    """Hold the size of a finding by each joint that it acts on, over its size by all, with covariance."""
 
     joints: tuple[int, ...]
     """Counted from 1."""
     sizes: JointVector
-    deviations: JointVector
+    covariance: SquareMatrix
+    blocks: int
+    """Number of blocks that the covariance is from."""
+
+    @property
+    def deviations(self) -> JointVector:
+        """Give the deviation of each."""
+        return np.asarray(np.sqrt(np.diag(self.covariance)))
 
     @property
     def shown_by(self) -> tuple[int, ...]:
@@ -71,16 +78,17 @@ def confirming(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> Size
 
 
 def sizes_by_joint(fitter: HypothesisFitter, chosen: Hypothesis, index: int) -> SizeByJoint | None:
-    """Fit a member to each joint by itself, beside all other columns; None where too few could confirm it."""
+    """Fit a member to each joint by itself, beside all other columns; None where one joint alone has it."""
     fit, own = chosen.fit, chosen.columns_of(index)
     acting = [joint for joint, part in enumerate(fit.joints) if part.of(own).any()]
-    if len(acting) < BETWEEN_JOINTS.joints:
+    if len(acting) < 2:
         return None
     solution = BlockSolution(_blocks(fitter, fit, own, acting))
     weights = np.eye(len(solution.change))[:, -len(acting) :]
-    deviations = np.maximum(solution.deviations(weights), solution.model_deviations(weights))
     sizes = 1.0 + solution.change[-len(acting) :]
-    return SizeByJoint(tuple(joint + 1 for joint in acting), sizes, deviations)
+    return SizeByJoint(
+        tuple(joint + 1 for joint in acting), sizes, solution.covariance(weights), len(solution.blocks)
+    )
 
 
 def _blocks(fitter: HypothesisFitter, fit: Fit, own: slice, acting: Sequence[int]) -> list[BlockEquations]:

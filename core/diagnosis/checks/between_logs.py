@@ -8,6 +8,7 @@ Biometrics 10(1), 1954, on comparing the estimates of several experiments.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -58,12 +59,33 @@ class BetweenLogs:
             return None
         return min(self._sizes(index), key=lambda one: one.size, default=None)
 
-    def _sizes(self, index: int) -> Iterator[SizeInLog]:
+    def sizes_in_parts(self, index: int, parts: int) -> list[tuple[float, float]]:
+        """Give a member's size in successive parts of all logs, and the deviation, no less than by the model.
+
+        Fewer than so many where the blocks do not suffice.
+        """
+        blocks = self.fitted_blocks
+        borders = [round(len(blocks) * part / parts) for part in range(parts + 1)]
+        weight = self._weight(index)
+        cut = (blocks[start:stop] for start, stop in pairwise(borders))
+        return [_size(part, weight, least_by_model=True) for part in cut if len(part) > 1]
+
+    @property
+    def fitted_blocks(self) -> list[BlockEquations]:
+        """List the blocks of all logs that are not held out."""
+        return [block for log in self._blocks for block in log if block.gram.any()]
+
+    def _weight(self, index: int) -> Vector:
+        """Give the weights of all values of which a member's size, over its own, is the sum."""
         own = self.chosen.columns_of(index)
         value = self.chosen.fit.values[own]
         weight = np.zeros(len(self.chosen.fit.values))
         weight[own] = np.linalg.solve(self.chosen.covariance(index), value)
         weight /= weight[own] @ value
+        return weight
+
+    def _sizes(self, index: int) -> Iterator[SizeInLog]:
+        weight = self._weight(index)
         for motion, blocks in zip(self.fitter.dataset.motions, self._blocks, strict=True):
             if len(blocks) > 1:
                 yield SizeInLog(motion.log.name, *_size(blocks, weight))
@@ -86,7 +108,11 @@ class BetweenLogs:
         return [[found[number] for number, own in log.items() if own == place] for place in logs]
 
 
-def _size(blocks: Sequence[BlockEquations], weight: Vector) -> tuple[float, float]:
+def _size(
+    blocks: Sequence[BlockEquations], weight: Vector, *, least_by_model: bool = False
+) -> tuple[float, float]:
     """Give one more than a log changes along some weights, and its deviation by the scatter of blocks."""
-    solution = BlockSolution(blocks)
-    return float(1.0 + weight @ solution.change), float(solution.deviations(weight[:, None])[0])
+    solution, along = BlockSolution(blocks), weight[:, None]
+    deviation = float(solution.deviations(along)[0])
+    least = float(solution.model_deviations(along)[0]) if least_by_model else 0.0
+    return float(1.0 + weight @ solution.change), max(deviation, least)

@@ -47,13 +47,24 @@ class BlockSolution:
 
     def deviations(self, weights: Matrix) -> Vector:
         """Give the deviations of weighted sums of the values, along columns, by the scatter of blocks."""
-        along = self._solved(weights)
-        moved = np.array([along.T @ (block.slope - block.gram @ self.change) for block in self.blocks])
-        return np.asarray(np.sqrt(np.sum(moved**2, axis=0) * len(moved) / (len(moved) - 1)))
+        return np.asarray(np.sqrt(np.diag(self._scatter(weights))))
 
     def model_deviations(self, weights: Matrix) -> Vector:
         """Give the same by the noise model, under which columns and what is left are white."""
         return np.asarray(np.sqrt(np.einsum("ij,ij->j", weights, self._solved(weights))))
+
+    def covariance(self, weights: Matrix) -> SquareMatrix:
+        """Give the covariance of weighted sums by the scatter of blocks, no less than the noise model's."""
+        found = self._scatter(weights)
+        least, deviations = self.model_deviations(weights), np.sqrt(np.diag(found))
+        larger = np.maximum(least / np.maximum(deviations, np.finfo(float).tiny), 1.0)
+        scattered = deviations > 0.0
+        return np.where(np.outer(scattered, scattered), found * np.outer(larger, larger), np.diag(least**2))
+
+    def _scatter(self, weights: Matrix) -> SquareMatrix:
+        along = self._solved(weights)
+        moved = np.array([along.T @ (block.slope - block.gram @ self.change) for block in self.blocks])
+        return np.asarray(moved.T @ moved * len(moved) / (len(moved) - 1))
 
     def _solved(self, right: np.ndarray) -> np.ndarray:
         factor, scale = self._factor

@@ -25,6 +25,7 @@ from .confidence import confidence, predictors
 from .figure import curve
 from .gain import gain
 from .instruments import Instruments
+from .one_size import several_sizes
 from .plausible_size import has_known_size
 from .position_noise import NoiseTest, noise_test
 from .spring_resonance import contradicts_resonance, resonance_evidence
@@ -70,6 +71,7 @@ def finding(
     scattered = _between_blocks(fitter, chosen, index, own)
     in_log = logs.least_size(index)
     represented = cause.represented(at, solved) and has_known_size(cause, solved)
+    several = several_sizes(fitter, chosen, index, logs)
     tests = _tests(fitter, own, checks)
     resonance = resonance_evidence(cause.id, at, solved)
     beside = gain_evidence(fitter, own.without, member)
@@ -79,6 +81,7 @@ def finding(
         not represented,
         _scatters(scattered),
         in_log is not None and in_log.is_missing,
+        bool(several),
         *(test.doubts for test in tests),
         contradicted_by_command(dataset.motions, cause.id, member.site, float(solved.values[0])),
         contradicts_resonance(resonance, solved),
@@ -100,6 +103,7 @@ def finding(
             *_on_holdout(fitter, chosen, index, own),
             *scattered,
             *(() if in_log is None else (in_log.evidence,)),
+            *several,
             *(one for test in tests for one in test.evidence),
             *resonance,
             *beside,

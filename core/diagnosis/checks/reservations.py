@@ -6,10 +6,12 @@ more than half of a joint's torque, the likeliest small correction is seldom the
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
 from ...arrays import SampleMask, Samples
+from ...log.defects.unsigned import UNKNOWN_SIGN
 from ..causes.torque_dead_zone import TorqueDeadZone
 from ..causes.torque_gain import TorqueGain
 from ..dataset.dataset import Dataset
@@ -107,6 +109,32 @@ def beside_mixed_channels(
     """
     mixed = unnamed is not None and unnamed.mixes_channels and unnamed.statistic > most
     return [as_doubtful(finding) if mixed and finding.member is not None else finding for finding in findings]
+
+
+def beside_unknown_signs(findings: Sequence[Finding], dataset: Dataset) -> list[Finding]:
+    """Limit what a search found while torques of some joints may be magnitudes, as others' in the log are.
+
+    What a magnitude lacks looks like a gain or a friction of its joint, and enters what all joints share.
+    """
+    joints = sorted(_of_unknown_sign(dataset))
+    evidence = Evidence(
+        "Joints whose torque may be a magnitude, as other joints' in the log are: "
+        f"{', '.join(map(str, joints))}. No cause is sure beside them",
+        "torques of unknown sign",
+        float(len(joints)),
+    )
+    return [
+        as_doubtful(replace(finding, evidence=(*finding.evidence, evidence)))
+        if joints and finding.member is not None
+        else finding
+        for finding in findings
+    ]
+
+
+def _of_unknown_sign(dataset: Dataset) -> set[int]:
+    """Give the joints, from 1, whose torque may be a magnitude in some log."""
+    defects = chain.from_iterable(motion.log.defects for motion in dataset.motions)
+    return {defect.joint for defect in defects if defect.kind == UNKNOWN_SIGN and defect.joint}
 
 
 def beside_another_setup(findings: Sequence[Finding], promising: float) -> tuple[Finding, ...]:

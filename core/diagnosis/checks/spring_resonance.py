@@ -14,6 +14,7 @@ from ..causes.joint_elasticity import JointElasticity
 from ..causes.protocol import FittedCause, Setting
 from ..result import Evidence, Finding
 from ..thresholds.checks import CONFIDENCE, SPRING_RESONANCE
+from .one_size import has_several_sizes
 from .reservations import as_doubtful
 
 STATISTIC = "stiffness over resonance"
@@ -45,14 +46,15 @@ def resonance_evidence(cause: str, at: Setting, solved: FittedCause) -> tuple[Ev
 
 
 def beside_what_swings(findings: Sequence[Finding]) -> tuple[list[Finding], bool]:
-    """Limit findings beside a spring that stands for something else that swings, and explains more.
+    """Limit findings beside one that stands for something else, and explains more.
 
-    What such a spring leaves of it may look like any other cause, on all joints.
+    That is a spring whose stiffness is not that of its resonance, or one number that has several sizes. What
+    it leaves of the other thing may look like any other cause, on all joints.
 
     Returns
     -------
     tuple
-        The findings, and whether none explains more than such a spring.
+        The findings, and whether none explains more than such a finding.
     """
     most = max(
         (finding.explained_fraction for finding in findings if _stands_for_another(finding)), default=-np.inf
@@ -66,7 +68,9 @@ def beside_what_swings(findings: Sequence[Finding]) -> tuple[list[Finding], bool
 
 
 def _stands_for_another(finding: Finding) -> bool:
-    """Tell whether a finding is doubtful, and its stiffness not that of its resonance."""
+    """Tell whether a finding has several sizes, or is doubtful and its stiffness not of its resonance."""
+    if has_several_sizes(finding):
+        return True
     off = (abs(float(np.log(each.value))) for each in finding.evidence if each.statistic == STATISTIC)
     return finding.confidence <= CONFIDENCE.doubtful and any(
         size > float(np.log(SPRING_RESONANCE.times)) for size in off

@@ -108,6 +108,9 @@ class SampleChecks:
     """Ratio of the variance from products of joints to that from their squares from which joints agree."""
     jitter_share: float = 1e-3
     """Share of some joint's residual that jitter has to account for: rounding scatters, too."""
+    jitter_held: float = 0.4
+    """Share of the motion in which all positions repeat, from which rows are not the samples. Set by hand: of
+    samples that are half as many as rows it is a half."""
     jitter_block: int = 32
     """Rows whose products are summed before their scatter is taken."""
     dead_passages: int = 3

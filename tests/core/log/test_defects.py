@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from tests.core.log.writers import swing
 from veritorque.core.log.defects.runs import Runs
+from veritorque.core.log.defects.saturation import Beside
 from veritorque.core.log.defects.spikes import median_of_five
 from veritorque.core.log.defects.stretch import STRETCH_ROWS
 from veritorque.core.log.reader import log_from_arrays
@@ -293,6 +294,44 @@ def test_the_flat_top_of_a_quantised_torque_is_no_saturation(lsb):
     assert not [d for d in log_of(time, position, smooth).defects if d.kind == "saturation"]
 
 
+@pytest.mark.parametrize("limit", [0.5, 0.6, 0.7, 2.0])
+@pytest.mark.parametrize("first", ["clipped", "rounded"])
+def test_a_coarse_torque_that_stops_at_a_limit_is_saturated_though_peaks_end_below_it(limit, first):
+    """A slow swell with a quick one has many peaks of all heights, each of some coarse steps."""
+    rng = np.random.default_rng(12)
+    time = np.arange(0.0, 40.0, 4e-3)
+    position = np.column_stack([np.sin(time), np.cos(1.3 * time)])
+    torque = np.column_stack([np.cos(time), 6.0 * np.sin(0.7 * time) + 4.0 * np.sin(2.9 * time)])
+    torque += 0.1 * rng.normal(size=torque.shape)
+    level, step = limit * torque[:, 1].max(), 0.9
+    ways = [lambda own: np.clip(own, -level, level), lambda own: step * np.round(own / step)]
+    for way in ways if first == "clipped" else ways[::-1]:
+        torque[:, 1] = way(torque[:, 1])
+    saturated = [one.joint for one in log_of(time, position, torque).defects if one.kind == "saturation"]
+    assert set(saturated) == ({2} if limit < 1.0 else set())
+
+
+def test_what_is_beside_a_plateau_does_not_depend_on_how_a_log_is_cut():
+    rng = np.random.default_rng(5)
+    values = np.minimum(np.round(np.cumsum(rng.integers(-1, 2, 3000)) / 4.0), 6.0)
+    found = set()
+    for size in (1, 7, 64, 3000):
+        beside = Beside()
+        for start in range(0, len(values), size):
+            beside.feed(values[start : start + size])
+        beside.close()
+        found.add((beside.top, beside.rows))
+    ((top, rows),) = found
+    ends = np.r_[0, np.flatnonzero(np.diff(values)) + 1, len(values)]
+    runs = list(zip(values[ends[:-1]], np.diff(ends), strict=True))
+    assert top == values.max()
+    assert rows == sum(
+        sum(length for _, length in runs[max(at - 1, 0) : at + 2]) - runs[at][1]
+        for at in range(1, len(runs))
+        if runs[at][0] == top and runs[at][1] >= 5
+    )
+
+
 @FEWER
 @given(lsb=st.floats(2e-3, 1e-2))
 def test_a_coarse_encoder_is_stated_with_its_resolution(lsb):
@@ -543,6 +582,29 @@ def test_a_magnitude_that_was_given_the_sign_of_the_speed_is_one(change, found):
     torque[:, 1] = change(torque[:, 1], speed)
     defects = log_from_arrays("planted", time, position, torque).defects
     assert [one.joint for one in defects if one.kind == "unsigned_torque"] == found
+
+
+@pytest.mark.parametrize(
+    ("change", "found"),
+    [
+        (lambda own, speed: own, []),
+        (lambda own, speed: np.abs(own + 4.0), [3]),
+        (lambda own, speed: np.abs(own + 4.0) * np.sign(speed), [3]),
+        (lambda own, speed: -np.abs(own + 4.0) * np.sign(speed), [3]),
+        (lambda own, speed: np.full_like(own, 2.0), []),
+    ],
+    ids=["both signs", "one sign", "that of the speed", "the other", "none measured"],
+)
+@pytest.mark.parametrize("magnitude", [True, False], ids=["beside a magnitude", "beside none"])
+def test_beside_a_magnitude_the_sign_of_other_torques_is_to_be_shown(change, found, magnitude):
+    time = np.arange(0.0, 20.0, 4e-3)
+    position = np.column_stack([np.sin(time), np.cos(1.3 * time), np.sin(1.7 * time)])
+    torque = np.column_stack([np.cos(time) + np.sin(2.3 * time), np.sin(2.9 * time), np.sin(2.1 * time)])
+    torque[:, 2] = change(torque[:, 2], np.cos(1.7 * time))
+    torque[:, 1] = np.abs(torque[:, 1]) if magnitude else torque[:, 1]
+    defects = log_from_arrays("planted", time, position, torque).defects
+    assert [one.joint for one in defects if one.kind == "unsigned_torque"] == [2] * magnitude
+    assert [one.joint for one in defects if one.kind == "unknown_sign"] == found * magnitude
 
 
 def test_a_torque_that_is_held_for_half_a_log_is_stuck_though_its_recorder_repeats_rows():

@@ -98,6 +98,25 @@ def test_lost_rows_are_counted_and_not_taken_for_scattered_instants():
     assert findings("timestamp_jitter", log) == ()
 
 
+@pytest.mark.parametrize("rows", [2, 5])
+def test_positions_that_are_held_from_row_to_row_are_not_taken_for_scattered_instants(rows):
+    """A recorder asks for positions at a fraction of its rate, and for torques at every row."""
+    whole = recorded().source.data
+    held = np.arange(len(whole.time)) // rows * rows
+    log = log_from_arrays("wheels", whole.time, whole.position[held], whole.torque)
+    assert findings("timestamp_jitter", log) == ()
+
+
+def test_instants_scatter_although_a_robot_stands_for_most_of_the_time():
+    """Only rows in which it moves tell that positions are held."""
+    whole = recorded(jitter=4e-4).source.data
+    ends = np.repeat([[0], [-1]], 4 * len(whole.time), axis=1)
+    still = [np.r_[own[ends[0]], own, own[ends[1]]] for own in (whole.position, whole.torque)]
+    time = np.arange(len(still[0])) / RATE_HZ
+    torque = still[1] + NOISE * np.random.default_rng(2).normal(size=still[1].shape)
+    assert findings("timestamp_jitter", log_from_arrays("wheels", time, still[0], torque))
+
+
 @pytest.mark.parametrize("rows", [3, 15])
 def test_every_row_is_counted_that_stands_for_a_lost_one_however_many_follow_each_other(rows):
     whole = recorded().source.data

@@ -10,16 +10,21 @@ from veritorque.core.diagnosis.causes.external_contact import ExternalContact
 from veritorque.core.diagnosis.causes.friction_load_dependent import FrictionLoadDependent
 from veritorque.core.diagnosis.causes.protocol import Cause, Site
 from veritorque.core.diagnosis.causes.sample_check import SampleFinding
+from veritorque.core.diagnosis.causes.time_delay import TimeDelay
 from veritorque.core.diagnosis.causes.torque_dead_zone import TorqueDeadZone
 from veritorque.core.diagnosis.checks.findings import sample_finding
+from veritorque.core.diagnosis.checks.one_size import SEVERAL
 from veritorque.core.diagnosis.checks.reservations import (
     beside_another_setup,
     beside_dead_zones,
     beside_mixed_channels,
+    beside_unknown_signs,
 )
-from veritorque.core.diagnosis.result import Finding, Gain, UnnamedPattern
+from veritorque.core.diagnosis.checks.spring_resonance import beside_what_swings
+from veritorque.core.diagnosis.result import Evidence, Finding, Gain, UnnamedPattern
 from veritorque.core.diagnosis.search.hypothesis import Candidate
 from veritorque.core.diagnosis.thresholds.checks import CONFIDENCE
+from veritorque.core.log.model import Defect
 
 SURE = 0.97
 
@@ -71,6 +76,32 @@ def test_channels_that_read_each_other_show_no_cause(statistic, mixes, doubtful)
     limited = beside_mixed_channels([own, zone], pattern, 200.0)
     assert [one.confidence for one in limited] == pytest.approx([0.5 if doubtful else SURE, SURE])
     assert beside_mixed_channels([own], None, 200.0) == [own]
+
+
+@pytest.mark.parametrize(("kind", "doubtful"), [("unknown_sign", True), ("standstill", False)])
+def test_beside_a_torque_that_may_be_a_magnitude_no_search_is_sure_of_a_cause(kind, doubtful):
+    dataset = eventful_scene().dataset
+    motion = dataset.motions[0]
+    log = replace(motion.log, defects=(Defect(kind, "torque", 3, 1, (), "made up"),))
+    own, zone = found(FrictionLoadDependent(), (2,), 0.3), found(TorqueDeadZone(), (3,), 0.1)
+    limited = beside_unknown_signs([own, zone], replace(dataset, motions=(replace(motion, log=log),)))
+    assert [one.confidence for one in limited] == pytest.approx([0.5 if doubtful else SURE, SURE])
+    assert ("torques of unknown sign" in {one.statistic for one in limited[0].evidence}) == doubtful
+
+
+@pytest.mark.parametrize(("statistic", "doubtful"), [(SEVERAL, True), ("likelihood ratio", False)])
+def test_what_explains_less_than_a_finding_of_several_sizes_is_named_with_reserve(statistic, doubtful):
+    delay = replace(found(TimeDelay(), (), 0.5), evidence=(Evidence("made up", statistic, 1e-9),))
+    less, more, zone = (
+        found(FrictionLoadDependent(), (2,), 0.3),
+        found(FrictionLoadDependent(), (3,), 0.7),
+        found(TorqueDeadZone(), (3,), 0.1),
+    )
+    limited, alone = beside_what_swings([delay, less, more, zone])
+    expected = [0.5, 0.5, SURE, SURE] if doubtful else [SURE] * 4
+    assert [one.confidence for one in limited] == pytest.approx(expected)
+    assert not alone
+    assert beside_what_swings([delay, less])[1] == doubtful
 
 
 GAINED = 0.2
