@@ -32,6 +32,12 @@ def loop_candidates(fitter: HypothesisFitter, site: Site) -> tuple[Candidate, ..
     return tuple(Candidate(_UNLISTED, site, scalars, float(len(loops))) for scalars in loops)
 
 
+def smoothed_candidates(fitter: HypothesisFitter, seconds: float) -> tuple[Candidate, ...]:
+    """Give, joint by joint, a torque that was smoothed by a moving mean of this length, s."""
+    scalars = _UNLISTED.smoothed(seconds)
+    return tuple(Candidate(_UNLISTED, site, scalars, 1.0) for site in _UNLISTED.sites(fitter.dataset))
+
+
 def best_unnamed_pattern(
     fitter: HypothesisFitter, now: Hypothesis, unnamed: tuple[Candidate, ...]
 ) -> Hypothesis | None:

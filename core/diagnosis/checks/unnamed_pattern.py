@@ -39,8 +39,6 @@ SWINGS = tuple(float(rate) for rate in np.geomspace(0.7, 4.0, 12))
 """Rates of a swing, Hz."""
 LOOPS = tuple(float(rate) for rate in np.geomspace(1.0, 20.0, 12))
 """Bandwidths of a controller's loop, Hz."""
-MEANS = tuple(float(seconds) for seconds in np.geomspace(0.02, 0.3, 7))
-"""Lengths of a moving mean, s."""
 SWITCHES = 16
 """Parts of a log between which friction may switch; refined to the row."""
 DRIFT = "drift"
@@ -72,13 +70,17 @@ class UnnamedPatternCause(OwnJointCause):
         """List all patterns with their numbers."""
         patterns = _patterns(at.dataset.joints, at.joint, _seconds(at.dataset))
         channels: list[tuple[str, Numbers]] = [(DRIFT, _span(at.dataset)), (SCALE, ())]
-        channels += [(SMOOTH, (seconds,)) for seconds in MEANS]
+        channels += [(SMOOTH, (seconds,)) for seconds in UNNAMED.means]
         channels += [(OTHERS, ())] * (at.dataset.joints > 1)
         return [_scalars(name, numbers) for name, numbers in (*patterns, *_switches(at.dataset), *channels)]
 
     def loops(self, at: Setting) -> list[Scalars]:
         """List the loops in which the joint may lag behind the logged positions: what a reference leaves."""
         return [_scalars(name, numbers) for name, numbers in _loops(at)]
+
+    def smoothed(self, seconds: float) -> Scalars:
+        """Give the scalars of a torque that was smoothed by a moving mean of this length, s."""
+        return _scalars(SMOOTH, (seconds,))
 
     def finer(self, dataset: Dataset, scalars: Scalars) -> list[Scalars]:
         """List numbers around those of a grid point.

@@ -54,6 +54,27 @@ class Unnamed:
     """Seconds from a window to the rows that it is compared with."""
     burst_ratio: float = 6.0
     """Ratio of the median size in a window to the RMS elsewhere from which it is a burst."""
+    means: tuple[float, ...] = (0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3)
+    """Lengths of a moving mean, s, that may have smoothed a torque."""
+
+
+@dataclass(frozen=True)
+class Smoothed:
+    """Decide whether torques were smoothed forwards and backwards.
+
+    Source: shares of what the likeliest moving mean takes away. On four smoothed logs of a UR10e, a TX40 and
+    a Panda their median is 0.65 to 1.1. As measured, none of the UR10e's and two of the TX40's exceed 0.45; six
+    of the Panda's do, whose positions are noisy.
+    """
+
+    share: float = 0.45
+    """Share of what a moving mean takes away that a joint lacks at least."""
+    unknown: float = 0.25
+    """Standard deviation of a share, or over a share above one, from which on it is not known."""
+    most: float = 0.6
+    """Share of the joints whose share is known that have to lack it."""
+    joints: int = 2
+    """Such joints at least: one may have a spring."""
 
 
 @dataclass(frozen=True)
@@ -258,7 +279,7 @@ class Command:
 
 
 COMMAND, BLOCK_SCATTER, BETWEEN_LOGS = Command(), BlockScatter(), BetweenLogs()
-BETWEEN_JOINTS, ONE_SIZE = BetweenJoints(), OneSize()
+BETWEEN_JOINTS, ONE_SIZE, SMOOTHED = BetweenJoints(), OneSize(), Smoothed()
 POSITION_NOISE = PositionNoise()
 SPRING_RESONANCE, STRUCTURE_LEFT = SpringResonance(), StructureLeft()
 RESIDUAL, SEPARATION, AT_REST, MOTION = Residual(), Separation(), AtRest(), Motion()
