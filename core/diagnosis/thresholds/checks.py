@@ -63,7 +63,7 @@ class Smoothed:
     """Decide whether torques were smoothed forwards and backwards.
 
     Source: shares of what the likeliest moving mean takes away. On four smoothed logs of a UR10e, a TX40 and
-    a Panda their median is 0.65 to 1.1. As measured, none of the UR10e's and two of the TX40's exceed 0.45; six
+    a Panda their median is 0.65 to 1.1. As measured, none of the UR10e and two of the TX40 exceed 0.45; six
     of the Panda's do, whose positions are noisy.
     """
 
