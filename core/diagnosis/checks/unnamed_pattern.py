@@ -27,7 +27,7 @@ from ...dynamics.terms.unnamed_pattern import (
 from ..causes.protocol import FittedCause, Quantity, Scalars, SearchTraits, Setting
 from ..causes.shared.own_joint import OwnJointCause
 from ..dataset.dataset import Dataset
-from ..thresholds.checks import UNNAMED
+from ..thresholds.checks import SMOOTHED, UNNAMED
 
 WAVES = (1.0, 2.0)
 SLOWEST, QUICKEST = 0.15, 1.0
@@ -117,6 +117,10 @@ class UnnamedPatternCause(OwnJointCause):
         if name == SCALE:
             return PositionScale(at.joint, at.operating_point)
         return Trace(at.joint, name, numbers)
+
+    def admissible(self, solved: FittedCause) -> bool:
+        """Tell whether a smoothed torque lacks much of what is quick; other patterns have no size."""
+        return _read(solved.scalars)[0] != SMOOTH or float(solved.values[0]) > SMOOTHED.share
 
     def quantities(self, solved: FittedCause) -> tuple[Quantity, ...]:
         """Report no numbers: they have no physical meaning."""

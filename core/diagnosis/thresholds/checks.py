@@ -54,8 +54,9 @@ class Unnamed:
     """Seconds from a window to the rows that it is compared with."""
     burst_ratio: float = 6.0
     """Ratio of the median size in a window to the RMS elsewhere from which it is a burst."""
-    means: tuple[float, ...] = (0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3)
-    """Lengths of a moving mean, s, that may have smoothed a torque."""
+    means: tuple[float, ...] = (0.08, 0.12, 0.2, 0.3)
+    """Lengths of a moving mean, s, that may have smoothed a torque. A joint that sticks, and columns of noisy
+    positions, leave the same as one of up to 30 ms."""
 
 
 @dataclass(frozen=True)
