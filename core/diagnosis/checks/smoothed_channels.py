@@ -38,7 +38,7 @@ class Smoothing:
         """Tell whether most joints of which the share is known lack much of it, and several do."""
         known = self.deviations < SMOOTHED.unknown * np.maximum(np.abs(self.shares), 1.0)
         count = int(np.count_nonzero(known & self._lacking))
-        return count >= SMOOTHED.joints and count >= SMOOTHED.most * np.count_nonzero(known)
+        return count >= max(SMOOTHED.joints, SMOOTHED.most * int(np.count_nonzero(known)))
 
     @property
     def length(self) -> float:
