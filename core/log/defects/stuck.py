@@ -3,7 +3,7 @@
 A position that moved, stood still for a moment and is much farther on afterwards did not stand still; nor did
 one that goes on with a step larger than any other. A torque that carries noise does not repeat a value many
 times while the joint moves, unless it is clipped. A channel that does so again and again is coarse or held by
-its maker: that is usual and no fault.
+its maker: that is usual and no fault, but for a run far longer than all others.
 """
 
 from collections import Counter
@@ -23,8 +23,14 @@ round in a larger one than that: simulated torque without noise may stay the sam
 GROUP = 10.0
 """Where it repeats values more often, it may do so in groups of so many: a run that is no chance is as many
 times longer than one of independent repeats."""
+OUTSTANDING = 2.5
+"""A run that is so many times as long as the next one, or as the longest that is usual, stands out."""
+LEVELS = 10
+"""A coarse channel repeats more values than these; a clipped one two."""
 MOVES = 0.05
 """A joint that covers this share of its usual way moves."""
+MOVES_ON = 0.5
+"""And one that covers this share moves as usual: slowly, it keeps a coarse torque for long."""
 LONGEST_S = 1.0
 """A position that stays longer is a joint that rests."""
 MOST_RUNS = 10
@@ -139,16 +145,35 @@ class _Signal:
     def runs_while_moving(self) -> np.ndarray:
         """Give the runs of a noisy channel during which the joint moves, one to the log's end among them."""
         self._runs.close()
+        return np.unique(np.concatenate([self._noisy_runs(), self._outstanding()]), axis=0)
+
+    def _outstanding(self) -> np.ndarray:
+        """Give the runs that stand out of a coarse channel's, during which the joint moves as it does."""
+        runs = self._runs.ended
+        lasted, way = (runs[:, 1, value] - runs[:, 0, value] for value in (_ROW, _WAY))
+        longest = np.sort(lasted)[::-1]
+        far = (longest > OUTSTANDING * np.append(longest[1:], STANDING_ROWS))[:MOST_RUNS]
+        least = longest[np.flatnonzero(far)[-1]] if far.any() else np.inf
+        moving = way * self._rows > MOVES_ON * self._way * lasted
+        is_coarse = len(self._again) > LEVELS and self._turns > OFTEN * self._rows
+        return np.asarray(runs[(lasted >= least) & moving & is_coarse & ~self._clipped(runs)])
+
+    def _noisy_runs(self) -> np.ndarray:
+        """Give the runs of a value that a noisy channel keeps nowhere else."""
         runs = self._exceptional()
         lasted, way = (runs[:, 1, value] - runs[:, 0, value] for value in (_ROW, _WAY))
         others = self._rows - float(lasted.sum())
         share = (self._repeats - float(lasted.sum())) / max(others, 1.0)
         rare = (share < RARELY) | is_no_chance(lasted / GROUP, share, self._rows)
         noisy = rare & (self._turns > OFTEN * others)
+        moving = way * self._rows > MOVES * self._way * lasted
+        return np.asarray(runs[noisy & moving & ~self._clipped(runs)])
+
+    def _clipped(self, runs: np.ndarray) -> np.ndarray:
+        """Mark the runs at an end of the channel's range that was not jumped to."""
         value = runs[:, 1, _VALUE]
         reached = runs[:, 0, _BEFORE] <= self._jump
-        clipped = ((value == self._low) | (value == self._high)) & reached
-        return np.asarray(runs[noisy & ~clipped & (way * self._rows > MOVES * self._way * lasted)])
+        return np.asarray(((value == self._low) | (value == self._high)) & reached)
 
     @property
     def _jump(self) -> float:

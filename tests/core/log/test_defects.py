@@ -171,6 +171,18 @@ def test_a_joint_that_rests_and_a_torque_that_is_coarse_or_clipped_are_not_stuck
     assert log_of(time, position, torque).segments == ((0, len(time)),)
 
 
+def test_a_coarse_torque_that_hangs_for_long_is_stuck():
+    """It keeps many values for some samples, and this one again and again; none for nearly as long."""
+    time, position, torque = healthy()
+    step = np.ptp(torque[:, 1]) / 40.0
+    torque += 0.5 * step * np.random.default_rng(5).standard_normal(torque.shape)
+    torque = step * np.round(torque / step)
+    assert log_of(time, position, torque).segments == ((0, len(time)),)
+    torque[1000:1080, 1] = torque[999, 1]
+    (found,) = (one for one in log_of(time, position, torque).defects if one.kind == "stuck_channel")
+    assert (found.joint, found.channel, found.count) == (2, "torque", 80)
+
+
 @pytest.mark.parametrize("gap", [0.0, 5.0], ids=["joined", "paused"])
 def test_a_parked_joint_that_is_elsewhere_in_the_next_run_was_not_stuck(gap):
     time, position, torque = healthy()
