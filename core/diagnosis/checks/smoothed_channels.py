@@ -16,9 +16,10 @@ from ...arrays import JointMarks, JointVector
 from ..result import Evidence, Finding
 from ..search.fitter import HypothesisFitter
 from ..search.hypothesis import Hypothesis
-from ..thresholds.checks import CONFIDENCE, SMOOTHED, UNNAMED
+from ..thresholds.checks import CONFIDENCE, SMOOTHED
 from .lack_of_fit import smoothed_candidates
 from .reservations import as_doubtful
+from .unnamed_pattern import moving_means
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +64,7 @@ class Smoothing:
 
 def smoothing(fitter: HypothesisFitter, chosen: Hypothesis) -> Smoothing:
     """Give the likeliest smoothing of all torques beside what a search found."""
-    return max((_over(fitter, chosen, seconds) for seconds in UNNAMED.means), key=_statistic)
+    return max((_over(fitter, chosen, seconds) for seconds in moving_means()), key=_statistic)
 
 
 def _over(fitter: HypothesisFitter, chosen: Hypothesis, seconds: float) -> Smoothing:

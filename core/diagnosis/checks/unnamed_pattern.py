@@ -70,7 +70,7 @@ class UnnamedPatternCause(OwnJointCause):
         """List all patterns with their numbers."""
         patterns = _patterns(at.dataset.joints, at.joint, _seconds(at.dataset))
         channels: list[tuple[str, Numbers]] = [(DRIFT, _span(at.dataset)), (SCALE, ())]
-        channels += [(SMOOTH, (seconds,)) for seconds in UNNAMED.means]
+        channels += [(SMOOTH, (seconds,)) for seconds in moving_means()]
         channels += [(OTHERS, ())] * (at.dataset.joints > 1)
         return [_scalars(name, numbers) for name, numbers in (*patterns, *_switches(at.dataset), *channels)]
 
@@ -130,6 +130,11 @@ class UnnamedPatternCause(OwnJointCause):
     def statement(self, solved: FittedCause) -> str:
         """Say what the residual follows."""
         return f"The residual of joint {solved.site[0]} follows {_pattern_words(*_read(solved.scalars))}"
+
+
+def moving_means() -> list[float]:
+    """List the lengths of a moving mean, s, that may have smoothed a torque."""
+    return np.geomspace(UNNAMED.shortest_mean, UNNAMED.longest_mean, UNNAMED.means).tolist()
 
 
 def mixes_channels(scalars: Scalars) -> bool:

@@ -54,9 +54,13 @@ class Unnamed:
     """Seconds from a window to the rows that it is compared with."""
     burst_ratio: float = 6.0
     """Ratio of the median size in a window to the RMS elsewhere from which it is a burst."""
-    means: tuple[float, ...] = (0.08, 0.12, 0.2, 0.3)
-    """Lengths of a moving mean, s, that may have smoothed a torque. A joint that sticks, and columns of noisy
-    positions, leave the same as one of up to 30 ms."""
+    means: int = 4
+    """Lengths of a moving mean that are tried."""
+    shortest_mean: float = 0.08
+    """The least of them, s. A joint that sticks, and columns of noisy positions, leave the same as one of up to
+    30 ms."""
+    longest_mean: float = 0.3
+    """The largest of them, s."""
 
 
 @dataclass(frozen=True)
