@@ -57,8 +57,8 @@ class Unnamed:
     means: int = 4
     """Lengths of a moving mean that are tried."""
     shortest_mean: float = 0.08
-    """The least of them, s. A joint that sticks, and columns of noisy positions, leave the same as one of up to
-    30 ms."""
+    """The least of them, s. A joint that sticks, and columns of noisy positions, leave the same as one of
+    up to 30 ms."""
     longest_mean: float = 0.3
     """The largest of them, s."""
 
