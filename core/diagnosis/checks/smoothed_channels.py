@@ -80,8 +80,8 @@ def _statistic(found: Smoothing) -> float:
 
 def beside_smoothing(findings: Sequence[Finding], sought: Callable[[], Smoothing]) -> list[Finding]:
     """Limit what a search found where the torques were smoothed, which is sought where any of it is sure."""
-    sure = (finding for finding in findings if finding.member and finding.confidence > CONFIDENCE.doubtful)
-    if next(sure, None) is None or not (found := sought()).is_clear:
+    sure = any(finding.member and finding.confidence > CONFIDENCE.doubtful for finding in findings)
+    if not sure or not (found := sought()).is_clear:
         return list(findings)
     return [
         finding

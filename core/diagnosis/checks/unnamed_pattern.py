@@ -132,9 +132,10 @@ class UnnamedPatternCause(OwnJointCause):
         return f"The residual of joint {solved.site[0]} follows {_pattern_words(*_read(solved.scalars))}"
 
 
-def moving_means() -> list[float]:
+def moving_means() -> tuple[float, ...]:
     """List the lengths of a moving mean, s, that may have smoothed a torque."""
-    return np.geomspace(UNNAMED.shortest_mean, UNNAMED.longest_mean, UNNAMED.means).tolist()
+    lengths = np.geomspace(UNNAMED.shortest_mean, UNNAMED.longest_mean, UNNAMED.means)
+    return tuple(float(seconds) for seconds in lengths)
 
 
 def mixes_channels(scalars: Scalars) -> bool:

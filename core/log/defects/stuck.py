@@ -156,7 +156,7 @@ class _Signal:
         least = longest[np.flatnonzero(far)[-1]] if far.any() else np.inf
         moving = way * self._rows > MOVES_ON * self._way * lasted
         is_coarse = len(self._again) > LEVELS and self._turns > OFTEN * self._rows
-        return np.asarray(runs[(lasted >= least) & moving & is_coarse & ~self._clipped(runs)])
+        return self._from_jump(runs[(lasted >= least) & moving & is_coarse & ~self._clipped(runs)])
 
     def _noisy_runs(self) -> np.ndarray:
         """Give the runs of a value that a noisy channel keeps nowhere else."""
@@ -181,15 +181,15 @@ class _Signal:
         return JUMP * self._change / max(self._rows - self._repeats, 1)
 
     def _exceptional(self) -> np.ndarray:
-        """Give the long runs of a value that is kept nowhere else, where they are few.
-
-        Where the value was jumped to, the run's first sample is wrong as well; else it was measured.
-        """
+        """Give the long runs of a value that is kept nowhere else, where they are few."""
         runs = self._runs.ended
         lasted = runs[:, 1, _ROW] - runs[:, 0, _ROW]
         kept = np.array([self._again[value] for value in runs[:, 0, _VALUE]], dtype=float)
         usual = len(runs) > MOST_RUNS or len(self._again) >= MOST_VALUES
-        runs = runs[:0] if usual else runs[kept <= lasted]
+        return self._from_jump(runs[:0] if usual else runs[kept <= lasted])
+
+    def _from_jump(self, runs: np.ndarray) -> np.ndarray:
+        """Begin runs whose value was jumped to at their first sample: it is wrong as well, else measured."""
         runs[:, 0, _ROW] -= runs[:, 0, _BEFORE] > self._jump
         return runs
 

@@ -183,6 +183,18 @@ def test_a_coarse_torque_that_hangs_for_long_is_stuck():
     assert (found.joint, found.channel, found.count) == (2, "torque", 80)
 
 
+def test_a_coarse_torque_that_drops_to_a_value_of_its_own_is_stuck_once():
+    """Its run is unusual by its value and by its length, and is one run, from its first row on."""
+    time, position, torque = healthy()
+    step = np.ptp(torque[:, 1]) / 40.0
+    torque += 0.5 * step * np.random.default_rng(5).standard_normal(torque.shape)
+    torque = step * np.round(torque / step)
+    begin = 800 + int(np.argmax(np.abs(torque[800:1400, 1])))
+    torque[begin : begin + 300, 1] = 0.3 * step
+    (found,) = (one for one in log_of(time, position, torque).defects if one.kind == "stuck_channel")
+    assert (found.joint, found.count) == (2, 300)
+
+
 @pytest.mark.parametrize("gap", [0.0, 5.0], ids=["joined", "paused"])
 def test_a_parked_joint_that_is_elsewhere_in_the_next_run_was_not_stuck(gap):
     time, position, torque = healthy()
