@@ -50,6 +50,14 @@ _NEIGHBOURS = 40
 EFFORT_SPIKES = (("outliers", "torque"), ("outliers", "current"))
 UNUSABLE_SHARE = 0.05
 """A decimated sample is left out when more of the parallel filter's weight falls on unusable samples."""
+REVERSAL_SHARE = 0.03
+"""A decimated sample lies beside a reversal when more of the parallel filter's weight falls on its instants.
+
+Such a sample's friction errs by up to twice that share of Coulomb's level, alike at all reversals, which is a bias.
+With a smaller share fewer rows tell the parameters. Source: 50 logs of the estimators' bench each, a TX40 at
+1e-3 deg and 0.05 N m, and at 1e-2 deg and 0.5 N m. Errors of torque: 0.090 and 0.23 % with 5 %, 0.055 and 0.23 % with
+3 %; six logs each with 2 %: 0.053 and 0.25 %.
+"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,9 +127,8 @@ class Segment:
         marks = (self._unusable(wide.velocity, early) | self._at_a_limit(torque) | unknown[:, None])[inner]
         turns = self._undirected(wide.velocity)[inner]
         unusable, turning = (
-            self.parallel.influence(mask.T.astype(float), first - begin, kept.stop - kept.start).T
-            > UNUSABLE_SHARE
-            for mask in (marks, turns)
+            self.parallel.influence(mask.T.astype(float), first - begin, kept.stop - kept.start).T > share
+            for mask, share in ((marks, UNUSABLE_SHARE), (turns, REVERSAL_SHARE))
         )
         return Tile(
             state=state,
