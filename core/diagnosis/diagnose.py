@@ -24,7 +24,7 @@ from .checks.lack_of_fit import best_unnamed_pattern, unnamed_candidates
 from .checks.lagging_reference import beside_reference, lagging_reference
 from .checks.reservations import beside_dead_zones, beside_mixed_channels, beside_unknown_signs
 from .checks.samples import check_samples, dataset_of
-from .checks.smoothed_channels import beside_smoothing, smoothing
+from .checks.smoothed_channels import beside_smoothing
 from .checks.spring_resonance import beside_what_swings
 from .checks.structure_left import StructureLeft, nothing_beside_structure
 from .checks.unnamed_pattern import mixes_channels
@@ -78,7 +78,7 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     most = max((own.statistic for own in comparisons), default=0.0)
     findings = beside_mixed_channels(findings, unnamed, most)
     findings = beside_unknown_signs(findings, dataset)
-    findings = beside_smoothing(findings, partial(smoothing, fitter, chosen))
+    findings = beside_smoothing(findings, fitter, chosen)
     findings, swings = beside_what_swings(findings)
     doubted = any((lagging, swings, nothing_beside_structure(findings)))
     tell("predict the residual", 0.8)

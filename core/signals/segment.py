@@ -53,10 +53,10 @@ UNUSABLE_SHARE = 0.05
 REVERSAL_SHARE = 0.03
 """A decimated sample lies beside a reversal when more of the parallel filter's weight falls on its instants.
 
-Such a sample's friction errs by up to twice that share of Coulomb's level, alike at all reversals, which is a bias.
-With a smaller share fewer rows tell the parameters. Source: 50 logs of the estimators' bench each, a TX40 at
-1e-3 deg and 0.05 N m, and at 1e-2 deg and 0.5 N m. Errors of torque: 0.090 and 0.23 % with 5 %, 0.055 and 0.23 % with
-3 %; six logs each with 2 %: 0.053 and 0.25 %.
+Such a sample's friction errs by up to twice that share of Coulomb's level, alike at all reversals: a bias. A
+smaller share leaves fewer rows to tell the parameters. Source: the estimators' bench, a TX40 with noise of
+1e-3 deg and 0.05 N m, and of 1e-2 deg and 0.5 N m. Errors of torque over 50 logs each: 0.090 and 0.23 % with
+5 %, 0.055 and 0.23 % with 3 %; over six logs with 2 %: 0.053 and 0.25 %.
 """
 
 
@@ -127,7 +127,7 @@ class Segment:
         marks = (self._unusable(wide.velocity, early) | self._at_a_limit(torque) | unknown[:, None])[inner]
         turns = self._undirected(wide.velocity)[inner]
         unusable, turning = (
-            self.parallel.influence(mask.T.astype(float), first - begin, kept.stop - kept.start).T > share
+            share < self.parallel.influence(mask.T.astype(float), first - begin, kept.stop - kept.start).T
             for mask, share in ((marks, UNUSABLE_SHARE), (turns, REVERSAL_SHARE))
         )
         return Tile(

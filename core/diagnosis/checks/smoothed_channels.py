@@ -7,7 +7,7 @@ alike, so that the joints agree: each lacks about the same share of what a movin
 Source: Oppenheim & Willsky, Signals and Systems (1997), ch. 3, on filters of zero phase.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,17 +15,21 @@ import numpy as np
 from ...arrays import JointMarks, JointVector
 from ..result import Evidence, Finding
 from ..search.fitter import HypothesisFitter
-from ..search.hypothesis import Hypothesis
+from ..search.hypothesis import Candidate, Hypothesis
 from ..thresholds.checks import CONFIDENCE, SMOOTHED
 from .lack_of_fit import smoothed_candidates
 from .reservations import as_doubtful
 from .unnamed_pattern import moving_means
+
+DIRECTED = ("velocity", "other_velocity", "travel")
+"""Coordinates of causes that change with the direction of motion."""
 
 
 @dataclass(frozen=True, eq=False)
 class Smoothing:
     """Hold, joint by joint, what the torques lack of what a moving mean takes away."""
 
+    candidates: tuple[Candidate, ...]
     seconds: float
     """Length of the moving mean."""
     shares: JointVector
@@ -68,24 +72,43 @@ def smoothing(fitter: HypothesisFitter, chosen: Hypothesis) -> Smoothing:
 
 
 def _over(fitter: HypothesisFitter, chosen: Hypothesis, seconds: float) -> Smoothing:
-    scores = fitter.score(chosen, smoothed_candidates(fitter, seconds))
+    candidates = smoothed_candidates(fitter, seconds)
+    scores = fitter.score(chosen, candidates)
     variances = np.array([float(one.covariance[0, 0]) if one.freedom else np.inf for one in scores])
     shares = np.array([float(one.values[0]) for one in scores])
-    return Smoothing(seconds, shares, np.sqrt(variances), sum(one.statistic for one in scores))
+    return Smoothing(candidates, seconds, shares, np.sqrt(variances), sum(one.statistic for one in scores))
 
 
 def _statistic(found: Smoothing) -> float:
     return found.statistic
 
 
-def beside_smoothing(findings: Sequence[Finding], sought: Callable[[], Smoothing]) -> list[Finding]:
-    """Limit what a search found where the torques were smoothed, which is sought where any of it is sure."""
+def beside_smoothing(
+    findings: Sequence[Finding], fitter: HypothesisFitter, chosen: Hypothesis
+) -> list[Finding]:
+    """Limit what torques lack that were smoothed, which is sought where anything that a search found is sure.
+
+    A finding that explains as much beside the smoothing is none of what smoothing takes away. What depends on
+    the direction of motion is doubtful all the same: smoothing blurs friction's step at a reversal.
+    """
     sure = any(finding.member and finding.confidence > CONFIDENCE.doubtful for finding in findings)
-    if not sure or not (found := sought()).is_clear:
+    if not sure or not (found := smoothing(fitter, chosen)).is_clear:
         return list(findings)
     return [
         finding
-        if finding.member is None
+        if finding.member is None or _keeps_beside(fitter, chosen, finding.member, found.candidates)
         else as_doubtful(replace(finding, evidence=(*finding.evidence, found.evidence)))
         for finding in findings
     ]
+
+
+def _keeps_beside(
+    fitter: HypothesisFitter, chosen: Hypothesis, member: Candidate, smoothed: tuple[Candidate, ...]
+) -> bool:
+    """Tell whether a member explains most of what it does where smoothed torques are in the model as well."""
+    if member.cause.coordinate in DIRECTED:
+        return False
+    without = fitter.fit_without_each(chosen)[chosen.members.index(member)]
+    beside = fitter.fit((*without.members, *smoothed), without)
+    (alone,), (left,) = (fitter.score(under, [member]) for under in (without, beside))
+    return left.statistic > SMOOTHED.kept * alone.statistic

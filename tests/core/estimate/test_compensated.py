@@ -40,7 +40,7 @@ def observed(scale: float) -> ObservedProblem:
     rows = whole_rows(log_of(model, true_parameters(model), state, noise))
     position = rows.position + 1e-4 * rng.normal(size=rows.position.shape)
     log = log_from_arrays("swing", rows.time, position, scale * rows.torque)
-    motion = condition(log, model.robot, FilterOptions(cutoff_hz=10.0))
+    motion = condition(log, model.robot, FilterOptions(cutoff_hz=20.0))
     problem = Problem(base_model(model), (motion,), frozenset({(0, 3), (0, 11)}))
     return ObservedProblem(problem, problem.observed())
 

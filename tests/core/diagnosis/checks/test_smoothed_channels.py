@@ -1,21 +1,20 @@
 """Torques that were smoothed forwards and backwards are told by the joints that agree on it."""
 
-from copy import copy
-from functools import partial
-
 import numpy as np
 import pytest
 from scipy.ndimage import uniform_filter1d
 from scipy.signal import butter, lfilter, sosfiltfilt
 
 from tests.core.diagnosis.scenes import fitter_of, recording, scene_of
-from veritorque.core.arrays import JointSeries
+from veritorque.core.arrays import JointSeries, Vector
+from veritorque.core.diagnosis.causes.friction_viscous_nonlinear import FrictionViscousNonlinear
 from veritorque.core.diagnosis.causes.torque_filter_lag import TorqueFilterLag
+from veritorque.core.diagnosis.causes.torque_ripple import TorqueRipple
 from veritorque.core.diagnosis.checks.alternatives import compare_alternatives
 from veritorque.core.diagnosis.checks.between_logs import BetweenLogs
 from veritorque.core.diagnosis.checks.findings import finding
 from veritorque.core.diagnosis.checks.instruments import Instruments
-from veritorque.core.diagnosis.checks.smoothed_channels import Smoothing, beside_smoothing, smoothing
+from veritorque.core.diagnosis.checks.smoothed_channels import beside_smoothing, smoothing
 from veritorque.core.diagnosis.checks.structure_left import StructureLeft
 from veritorque.core.diagnosis.search.residuals import residual
 from veritorque.core.diagnosis.search.stepwise import search_stepwise
@@ -66,18 +65,45 @@ def test_torques_that_are_not_smoothed_are_not_called_so(torque):
     assert not smoothing(state.fitter, state.chosen).is_clear
 
 
-def test_what_is_found_in_smoothed_torques_is_doubtful():
-    fitter = fitter_of(scene_of(TIME, POSITION, noisy(late(0.02))), (TorqueFilterLag(),))
-    state, (own,) = compare_alternatives(search_stepwise(fitter))
-    after, instruments = residual(state.fitter, state.chosen), Instruments(state.fitter, state.chosen)
-    checks = instruments, StructureLeft(state.fitter, state.chosen)
-    made = finding(state, own, after, 0.0, checks, BetweenLogs(state.fitter, state.chosen))
-    joints = np.arange(TORQUE.shape[1])
-    smoothed = Smoothing(0.1, np.ones(len(joints)), np.full(len(joints), 0.05), 100.0)
-    own_springs = Smoothing(0.1, np.where(joints == 0, 1.0, 0.1), np.full(len(joints), 0.05), 100.0)
-    (doubtful,), (as_before,) = (
-        beside_smoothing([made], partial(copy, each)) for each in (smoothed, own_springs)
+def given(torque, *causes):
+    """Search for causes; give the fitter, the hypothesis, and the findings before smoothing is thought of."""
+    state, comparisons = compare_alternatives(
+        search_stepwise(fitter_of(scene_of(TIME, POSITION, torque), causes))
     )
-    assert as_before is made
-    assert made.confidence > CONFIDENCE.doubtful >= doubtful.confidence
+    fitter, chosen = state.fitter, state.chosen
+    after, checks = residual(fitter, chosen), (Instruments(fitter, chosen), StructureLeft(fitter, chosen))
+    logs = BetweenLogs(fitter, chosen)
+    return fitter, chosen, [finding(state, own, after, 0.0, checks, logs) for own in comparisons]
+
+
+def with_effect(effect: Vector) -> JointSeries:
+    """Add an effect on joint 1 to the torques, smooth them by 100 ms, and add noise."""
+    acts = np.arange(TORQUE.shape[1]) == 0
+    torque = TORQUE + np.where(acts, effect[:, None], 0.0)
+    return noisy(uniform_filter1d(torque, 1 + 2 * round(0.05 / STEP), axis=0, mode="nearest"))
+
+
+def test_what_changes_with_the_direction_of_motion_is_doubtful_in_smoothed_torques():
+    speed = np.gradient(POSITION[:, 0], STEP)
+    drag = np.sign(speed) * np.abs(speed / speed.std()) ** 2.0
+    fitter, chosen, (made,) = given(with_effect(0.3 * TORQUE[:, 0].std() * drag), FrictionViscousNonlinear())
+    assert made.confidence > CONFIDENCE.doubtful
+    (doubtful,) = beside_smoothing([made], fitter, chosen)
+    assert doubtful.confidence == CONFIDENCE.doubtful
     assert doubtful.evidence[-1].statistic == "smoothed torques"
+
+
+def test_torques_that_are_not_smoothed_put_nothing_in_doubt():
+    fitter, chosen, made = given(noisy(late(0.02)), TorqueFilterLag())
+    assert made[0].confidence > CONFIDENCE.doubtful
+    assert beside_smoothing(made, fitter, chosen) == made
+
+
+def test_what_smoothing_does_not_take_away_stays_as_sure():
+    wave = 0.3 * TORQUE[:, 0].std() * np.cos(6.0 * POSITION[:, 0] + 0.4)
+    fitter, chosen, made = given(with_effect(wave), TorqueRipple())
+    assert smoothing(fitter, chosen).is_clear
+    ripple = next(one for one in made if one.joints == (1,))
+    assert ripple.confidence > CONFIDENCE.doubtful
+    (kept,) = (one for one in beside_smoothing(made, fitter, chosen) if one.joints == (1,))
+    assert kept == ripple
