@@ -21,8 +21,8 @@ from .lack_of_fit import smoothed_candidates
 from .reservations import as_doubtful
 from .unnamed_pattern import moving_means
 
-DIRECTED = ("velocity", "other_velocity", "travel")
-"""Coordinates of causes that change with the direction of motion."""
+QUICK = ("velocity", "other_velocity", "travel", "load_jerk", "torque_rate")
+"""Coordinates of causes that act at once where a joint turns round or its torque changes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,27 +88,31 @@ def beside_smoothing(
 ) -> list[Finding]:
     """Limit what torques lack that were smoothed, which is sought where anything that a search found is sure.
 
-    A finding that explains as much beside the smoothing is none of what smoothing takes away. What depends on
-    the direction of motion is doubtful all the same: smoothing blurs friction's step at a reversal.
+    A finding of which the smoothing takes no part is none of what smoothing leaves. One that acts at once is
+    doubtful all the same.
     """
     sure = any(finding.member and finding.confidence > CONFIDENCE.doubtful for finding in findings)
     if not sure or not (found := smoothing(fitter, chosen)).is_clear:
         return list(findings)
     return [
         finding
-        if finding.member is None or _keeps_beside(fitter, chosen, finding.member, found.candidates)
+        if finding.member is None or _stays_beside(fitter, chosen, finding.member, found.candidates)
         else as_doubtful(replace(finding, evidence=(*finding.evidence, found.evidence)))
         for finding in findings
     ]
 
 
-def _keeps_beside(
+def _stays_beside(
     fitter: HypothesisFitter, chosen: Hypothesis, member: Candidate, smoothed: tuple[Candidate, ...]
 ) -> bool:
-    """Tell whether a member explains most of what it does where smoothed torques are in the model as well."""
-    if member.cause.coordinate in DIRECTED:
+    """Tell whether a member stands for the same torque where smoothed torques are in the model as well."""
+    if member.cause.coordinate in QUICK:
         return False
-    without = fitter.fit_without_each(chosen)[chosen.members.index(member)]
-    beside = fitter.fit((*without.members, *smoothed), without)
-    (alone,), (left,) = (fitter.score(under, [member]) for under in (without, beside))
-    return left.statistic > SMOOTHED.kept * alone.statistic
+    index, (columns,) = chosen.members.index(member), fitter.columns([member])
+    beside = fitter.fit((*chosen.members, *smoothed), chosen)
+    alone, left = (fit.solved(index).values for fit in (chosen, beside))
+    changed, whole = (
+        sum(float(np.sum((own @ values) ** 2)) for own in columns.values())
+        for values in (left - alone, alone)
+    )
+    return changed <= SMOOTHED.changed**2 * whole
