@@ -18,6 +18,7 @@ from ..robot.joint_units import prismatic_joints
 from ..robot.plausibility import unit_warnings
 from ..validation.quality import quality
 from .choice import BIASED
+from .computed_torque import looks_computed
 from .result import Identification
 
 HIGH_COST = 1.25
@@ -64,6 +65,7 @@ def doubts(found: Identification) -> tuple[str, ...]:
         *_description(found),
         *_logs(found),
         *_scale(found),
+        *looks_computed(found),
         *contradictions(found),
         *_not_converged(found),
         *_worse_than_least_squares(found),
