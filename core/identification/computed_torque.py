@@ -6,7 +6,8 @@ torque of bodies without friction. Either fits a rigid model very well, and is n
 
 import numpy as np
 
-from ..arrays import JointVector
+from ..arrays import JointVector, Mask
+from ..regressor.factor import REGRESSOR
 from .result import Identification
 
 FRICTION = ("FV", "FC")
@@ -19,11 +20,10 @@ NOTHING = 1e-6
 
 def looks_computed(found: Identification) -> list[str]:
     """Warn where most joints that carry torque show no friction, though the model has it."""
-    if not {found.base.parameter(row).symbol for row in range(len(found.estimate.base))} & set(FRICTION):
-        return []
-    friction, torque = _sizes(found)
+    rubs = np.array([found.base.parameter(row).symbol in FRICTION for row in range(len(found.estimate.base))])
+    friction, torque = _sizes(found, rubs)
     carrying = torque > NOTHING * torque.max(initial=0.0)
-    if not carrying.any():
+    if not rubs.any() or not carrying.any():
         return []
     share = float(np.median(friction[carrying] / torque[carrying]))
     if share > FRICTIONLESS:
@@ -36,13 +36,11 @@ def looks_computed(found: Identification) -> list[str]:
     return [sentence]
 
 
-def _sizes(found: Identification) -> tuple[JointVector, JointVector]:
-    """Give, by joint, the norms of the torque of friction and of all torque."""
-    base = found.estimate.base
-    rubs = np.array([found.base.parameter(row).symbol in FRICTION for row in range(len(base))])
-    friction, torque = [], []
+def _sizes(found: Identification, rubs: Mask) -> tuple[JointVector, JointVector]:
+    """Give, by joint, the norms of the torque of some base parameters and of all torque."""
+    base, friction, torque = found.estimate.base, [], []
     for factor, columns in zip(found.observation.joint_factors(), found.observation.columns_of, strict=True):
-        own = factor.triangle[:, :-1] @ np.where(rubs[columns], base[columns], 0.0)
-        friction.append(float(np.linalg.norm(own)))
+        own = np.where(rubs[columns], base[columns], 0.0)
+        friction.append(float(np.linalg.norm(factor.columns(REGRESSOR) @ own)))
         torque.append(float(np.sqrt(factor.torque_square)))
     return np.array(friction), np.array(torque)

@@ -30,6 +30,7 @@ class Smoothing:
     """Hold, joint by joint, what the torques lack of what a moving mean takes away."""
 
     candidates: tuple[Candidate, ...]
+    """The moving mean on each joint."""
     seconds: float
     """Length of the moving mean."""
     shares: JointVector
@@ -94,23 +95,21 @@ def beside_smoothing(
     sure = any(finding.member and finding.confidence > CONFIDENCE.doubtful for finding in findings)
     if not sure or not (found := smoothing(fitter, chosen)).is_clear:
         return list(findings)
+    beside = fitter.fit((*chosen.members, *found.candidates), chosen)
     return [
         finding
-        if finding.member is None or _stays_beside(fitter, chosen, finding.member, found.candidates)
+        if finding.member is None or _stays(fitter, finding.member, chosen, beside)
         else as_doubtful(replace(finding, evidence=(*finding.evidence, found.evidence)))
         for finding in findings
     ]
 
 
-def _stays_beside(
-    fitter: HypothesisFitter, chosen: Hypothesis, member: Candidate, smoothed: tuple[Candidate, ...]
-) -> bool:
+def _stays(fitter: HypothesisFitter, member: Candidate, chosen: Hypothesis, beside: Hypothesis) -> bool:
     """Tell whether a member stands for the same torque where smoothed torques are in the model as well."""
     if member.cause.coordinate in QUICK:
         return False
     index, (columns,) = chosen.members.index(member), fitter.columns([member])
-    beside = fitter.fit((*chosen.members, *smoothed), chosen)
-    alone, left = (fit.solved(index).values for fit in (chosen, beside))
+    alone, left = (found.solved(index).values for found in (chosen, beside))
     changed, whole = (
         sum(float(np.sum((own @ values) ** 2)) for own in columns.values())
         for values in (left - alone, alone)
