@@ -7,7 +7,7 @@ torque of bodies without friction. Either fits a rigid model very well, and is n
 import numpy as np
 
 from ..arrays import JointVector, Mask
-from ..regressor.factor import REGRESSOR
+from ..regressor.factor import REGRESSOR, TARGET
 from .result import Identification
 
 FRICTION = ("FV", "FC")
@@ -42,5 +42,5 @@ def _sizes(found: Identification, rubs: Mask) -> tuple[JointVector, JointVector]
     for factor, columns in zip(found.observation.joint_factors(), found.observation.columns_of, strict=True):
         own = np.where(rubs[columns], base[columns], 0.0)
         friction.append(float(np.linalg.norm(factor.columns(REGRESSOR) @ own)))
-        torque.append(float(np.sqrt(factor.torque_square)))
+        torque.append(float(np.linalg.norm(factor.columns(TARGET))))
     return np.array(friction), np.array(torque)

@@ -195,8 +195,11 @@ def _sandwich(bread: SquareMatrix, meat: SquareMatrix) -> SquareMatrix:
 
 
 def _excited(information: SquareMatrix, least: float = _RANK_TOLERANCE**2) -> tuple[Weights, Weights, Matrix]:
-    """Give the columns' sizes, and eigenvalues and -vectors of what remains, without those that are zero."""
-    size = np.sqrt(np.diag(information))
+    """Give the columns' sizes, and eigenvalues and -vectors of what remains, without those that are zero.
+
+    Where all rows of a column were taken out again, rounding may leave less than nothing.
+    """
+    size = np.sqrt(np.maximum(np.diag(information), 0.0))
     scale = np.where(size > 0.0, size, 1.0)
     values, vectors = np.linalg.eigh(information / np.outer(scale, scale))
     excited = values > least * values[-1]
