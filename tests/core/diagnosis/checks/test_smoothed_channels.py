@@ -1,5 +1,7 @@
 """Torques that were smoothed forwards and backwards are told by the joints that agree on it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.ndimage import uniform_filter1d
@@ -63,6 +65,14 @@ def test_torques_that_are_not_smoothed_are_not_called_so(torque):
     fitter = fitter_of(scene_of(TIME, POSITION, noisy(torque)), (TorqueFilterLag(),))
     state = search_stepwise(fitter)
     assert not smoothing(state.fitter, state.chosen).is_clear
+
+
+def test_one_joint_that_lacks_what_is_quick_may_have_a_spring():
+    fitter = fitter_of(scene_of(TIME, POSITION, noisy(moving_mean(0.1))), ())
+    found = smoothing(fitter, fitter.fit(()))
+    one = replace(found, shares=np.where(np.arange(TORQUE.shape[1]) == 0, 1.0, 0.1))
+    assert found.is_clear
+    assert not one.is_clear
 
 
 def given(torque, *causes):
