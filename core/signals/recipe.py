@@ -23,6 +23,12 @@ PARALLEL_OVER_MOTION = 10.0
 them."""
 LEAST_OVER_MOTION = 0.5
 """However noisy the positions are, half of the motion's band is passed: below it most motion is lost."""
+KEPT_APART = 0.4
+"""Kept samples are so much of a period of the cut-off apart."""
+FEWEST_KEPT = 100
+"""However noisy the positions are, so many samples are kept, where ten times the motion's band allows it: a
+log has fewer equations than unknowns below. Source: five in each of the twenty blocks that are held out in
+turn; of some thirty in a pick-and-place log of half a minute nothing could be identified."""
 POSITION_OVER_PARALLEL = 5.0
 """Positions keep a band five times wider. So that their filter does not bend what the parallel filter
 passes."""
@@ -174,7 +180,7 @@ def _choose(log: JointLog, options: FilterOptions, prismatic: Mask) -> Recipe:
     highest = min(0.4 * rate, 0.9 * nyquist)
     quiet = max(noise_cutoff(survey.positions, rate, band, speeds > still_speed), LEAST_OVER_MOTION * band)
     outweighed = quiet * (OUTWEIGHED / ATTENUATION) ** 0.2
-    wanted, why = _parallel_cutoff(band, quiet, outweighed)
+    wanted, why = _parallel_cutoff(band, quiet, outweighed, log.duration)
     cutoff = _or_default(options.cutoff_hz, min(wanted, highest / 2.0))
     position = _or_default(options.position_cutoff_hz, min(POSITION_OVER_PARALLEL * cutoff, highest))
     for name, value in (("cutoff_hz", cutoff), ("position_cutoff_hz", position)):
@@ -184,7 +190,7 @@ def _choose(log: JointLog, options: FilterOptions, prismatic: Mask) -> Recipe:
                 evidence={name: value, "rate_hz": 2.0 * nyquist, "motion_band_hz": band},
                 remedy=f"give a cut-off above {LOWEST_SHARE * band:.3g} Hz and below {nyquist:.6g} Hz",
             )
-    decimation = options.decimation or max(1, int(0.4 * rate / cutoff))
+    decimation = options.decimation or max(1, int(KEPT_APART * rate / cutoff))
     reason = why if options.cutoff_hz is None else "given"
     return Recipe(
         median_order=options.median_order,
@@ -244,15 +250,25 @@ def _still_speed(survey: Survey, prismatic: Mask) -> JointVector:
     return still
 
 
-def _parallel_cutoff(band: float, quiet: float, outweighed: float) -> tuple[float, str]:
-    """Choose the parallel filter's cut-off (Hz) by the motion's band and the noise of positions; say why."""
-    wide = PARALLEL_OVER_MOTION * band
+def _parallel_cutoff(band: float, quiet: float, outweighed: float, seconds: float) -> tuple[float, str]:
+    """Choose the parallel filter's cut-off (Hz) by the motion's band and the noise of positions; say why.
+
+    Parameters
+    ----------
+    seconds
+        Duration of the log.
+    """
+    wide, fewest = PARALLEL_OVER_MOTION * band, KEPT_APART * FEWEST_KEPT / seconds
     if wide <= outweighed:
         return wide, f"{PARALLEL_OVER_MOTION:g} times the motion's band of {band:.3g} Hz"
-    return quiet, (
-        f"above it the noise of positions would attenuate what is fitted by more than"
-        f" {100.0 * ATTENUATION:g} %; the motion's band is {band:.3g} Hz"
+    noisy = (
+        f"above {quiet:.3g} Hz the noise of positions would attenuate what is fitted by more than"
+        f" {100.0 * ATTENUATION:g} %"
     )
+    if fewest <= quiet:
+        return quiet, f"{noisy}; the motion's band is {band:.3g} Hz"
+    limit = f"{PARALLEL_OVER_MOTION:g} times the motion's band of {band:.3g} Hz"
+    return min(fewest, wide), f"the least that keeps {FEWEST_KEPT} samples, up to {limit}; {noisy}"
 
 
 def _or_default(asked: float | None, chosen: float) -> float:

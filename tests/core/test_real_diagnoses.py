@@ -9,7 +9,7 @@ import pytest
 
 from tests.hidden.real import diagnosed, percents
 from tests.measured import FRANKA_ROWS, TX40_TEST, TX40_TRAIN, measured_log, measured_robot
-from tests.truths.change import scaled
+from tests.truths.change import scaled, with_row
 from veritorque.core.diagnosis.thresholds.checks import CONFIDENCE
 from veritorque.core.extension.result import Extension
 
@@ -67,3 +67,13 @@ def test_nothing_but_faulty_samples_is_sure_on_the_first_half_of_a_pandas_run():
     sure = {one.cause for one in found.diagnosis.findings if one.confidence > CONFIDENCE.doubtful}
     assert sure == {"dropped_samples", "timestamp_jitter"}
     assert found.after is None
+
+
+def test_a_length_that_is_wrong_on_a_panda_is_named_though_its_torques_look_smoothed():
+    wrong = with_row(measured_robot("franka_panda"), 3, r=0.1)
+    found = diagnosed(wrong, measured_log("franka_panda", "traj1"))
+    (length,) = (one for one in found.diagnosis.findings if one.cause == "kinematic_error")
+    assert length.joints == (3,)
+    assert length.confidence > 0.8
+    (size, *_) = length.quantities
+    assert abs(size.value + 0.1) < 2.0 * size.standard_deviation

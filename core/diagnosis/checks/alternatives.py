@@ -51,6 +51,8 @@ class Comparison:
     over_unnamed: float = np.inf
     """The same over the best unnamed pattern on its joints, or the best unnamed event; infinite where none
     explains anything."""
+    stays_beside_unnamed: bool = False
+    """Whether it explains as much beside a pattern that leads, and no event does: another effect."""
 
 
 def compare_alternatives(found: SearchState) -> tuple[SearchState, list[Comparison]]:
@@ -95,9 +97,7 @@ def _dropped(state: SearchState, index: int, brings: float) -> SearchState:
 def _comparison(
     state: SearchState, index: int, refitted: Hypothesis, unnamed: tuple[Candidate, ...]
 ) -> Comparison:
-    own = compare_member(state, index, refitted)
-    pattern = _over_unnamed(state.fitter, own, unnamed)
-    return replace(own, over_unnamed=min(own.over_unnamed, pattern))
+    return _with_unnamed(state.fitter, compare_member(state, index, refitted), unnamed)
 
 
 def _is_inadmissible(state: SearchState, index: int) -> bool:
@@ -150,16 +150,23 @@ def _holdout_refutes(there: Gain, here: Gain) -> bool:
     )
 
 
-def _over_unnamed(fitter: HypothesisFitter, own: Comparison, unnamed: tuple[Candidate, ...]) -> float:
-    """Give a member's BIC difference less that of the best unnamed pattern in its place, on its joints."""
+def _with_unnamed(fitter: HypothesisFitter, own: Comparison, unnamed: tuple[Candidate, ...]) -> Comparison:
+    """Compare a member with the best unnamed pattern in its place, on its joints."""
     joints = own.member.site or range(1, fitter.dataset.joints + 1)
     here = tuple(pattern for pattern in unnamed if pattern.site[0] in joints)
-    unnamed_pattern = best_unnamed_pattern(fitter, own.without, here)
-    return np.inf if unnamed_pattern is None else own.bic_gain - bic_gain(own.without, unnamed_pattern)
+    pattern = best_unnamed_pattern(fitter, own.without, here)
+    if pattern is None:
+        return own
+    lead = own.bic_gain - bic_gain(own.without, pattern)
+    alone, events = own.statistic, own.over_unnamed
+    stays = lead < 0.0 <= events and keeps_beside(fitter, own.without, pattern, own.member, alone)
+    return replace(own, over_unnamed=min(events, lead), stays_beside_unnamed=stays)
 
 
 def _pattern_is_better(own: Comparison) -> bool:
-    """Tell whether an unnamed pattern explains much more than a member in its place."""
+    """Tell whether an unnamed pattern explains much more than a member in its place, and its part as well."""
+    if own.stays_beside_unnamed:
+        return False
     if own.member.cause.traits.transient:
         return own.over_unnamed < MASKING.kept * own.statistic
     return own.over_unnamed < -max(SELECTION.undecided, ALTERNATIVES.unnamed_share * own.statistic)

@@ -17,6 +17,7 @@ from ..search.residuals import residual
 from ..search.state import SearchState
 from ..thresholds.checks import BLOCK_SCATTER, CONFIDENCE
 from .alternatives import Comparison
+from .between_joints import confirming
 from .between_logs import BetweenLogs
 from .block_scatter import block_log_p
 from .body_or_gain import gain_evidence, is_rather_a_gain
@@ -65,7 +66,8 @@ def finding(
     mask = dataset.usable & dataset.held_out[:, None]
     measured = gain(left[0], left[1], mask, dataset.block_of_all, joints)
     log_p = log_p_of(fitter, chosen, index, own.statistic)
-    margin = min(own.margin, own.over_unnamed, own.statistic - unnamed)
+    over_unnamed = _lead_over_unnamed(fitter, chosen, own)
+    margin = min(own.margin, over_unnamed, own.statistic - unnamed)
     evidence = predictors(own.statistic, margin, measured)
     at = Setting(dataset, fitter.operating_point, member.site, member.scalars)
     scattered = _between_blocks(fitter, chosen, index, own)
@@ -77,7 +79,7 @@ def finding(
     beside = gain_evidence(fitter, own.without, member)
     doubts = (
         is_rather_a_gain(beside),
-        min(own.margin, own.over_unnamed) < 0.0,
+        min(own.margin, over_unnamed) < 0.0,
         not represented,
         _scatters(scattered),
         in_log is not None and in_log.is_missing,
@@ -115,6 +117,13 @@ def finding(
         curve=curve(dataset, fitter.operating_point, chosen, index, columns, left),
         member=member,
     )
+
+
+def _lead_over_unnamed(fitter: HypothesisFitter, chosen: Hypothesis, own: Comparison) -> float:
+    """Give a member's lead over unnamed patterns; infinite beside one where joints confirm the member."""
+    if own.over_unnamed < 0.0 and own.stays_beside_unnamed and confirming(fitter, chosen, own.index):
+        return np.inf
+    return own.over_unnamed
 
 
 def _tests(
@@ -195,6 +204,8 @@ def _over_unnamed(own: Comparison) -> tuple[Evidence, ...]:
     if not np.isfinite(own.over_unnamed):
         return ()
     statement = "Delta BIC to the best unnamed pattern; below 0 the finding is doubtful"
+    if own.over_unnamed < 0.0 and own.stays_beside_unnamed:
+        statement += ", unless joints confirm it: it explains as much beside the pattern"
     return (Evidence(statement, "lead over unnamed patterns", own.over_unnamed),)
 
 

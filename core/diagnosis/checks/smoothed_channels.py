@@ -105,13 +105,17 @@ def beside_smoothing(
 
 
 def _stays(fitter: HypothesisFitter, member: Candidate, chosen: Hypothesis, beside: Hypothesis) -> bool:
-    """Tell whether a member stands for the same torque where smoothed torques are in the model as well."""
+    """Tell whether a member stands for the same torque where smoothed torques are in the model as well.
+
+    It may change by its standard deviation and a share of it, in squares.
+    """
     if member.cause.coordinate in QUICK:
         return False
     index, (columns,) = chosen.members.index(member), fitter.columns([member])
-    alone, left = (found.solved(index).values for found in (chosen, beside))
+    alone, left = (found.solved(index) for found in (chosen, beside))
+    products = sum(own.T @ own for own in columns.values())
     changed, whole = (
-        sum(float(np.sum((own @ values) ** 2)) for own in columns.values())
-        for values in (left - alone, alone)
+        float(values @ products @ values) for values in (left.values - alone.values, alone.values)
     )
-    return changed <= SMOOTHED.changed**2 * whole
+    unknown = float(np.trace(products @ alone.covariance))
+    return changed <= unknown + SMOOTHED.changed**2 * whole

@@ -64,6 +64,15 @@ def test_the_recipe_is_narrow_and_says_why_only_where_positions_are_noisy(size, 
     assert ("noise of positions" in recipe.reason) == bounded
 
 
+@pytest.mark.parametrize("seconds", [20, 24])
+def test_however_noisy_positions_are_a_hundred_samples_are_kept_where_the_motion_has_them(seconds):
+    rows = int(seconds * RATE_HZ)
+    recipe = choose_recipe(log_of(TIME[:rows], (_wandering(0.5) + _noise(0.01))[:rows]), FilterOptions())
+    assert 100 <= rows / recipe.decimation < 110
+    assert "keeps 100 samples" in recipe.reason
+    assert recipe.cutoff_hz < PARALLEL_OVER_MOTION * recipe.motion_band_hz
+
+
 @pytest.mark.parametrize(("held_out", "most"), [(4, 17.0), (1, 30.0)])
 def test_a_measured_pendulum_with_noisy_positions_is_explained_on_motion_it_has_not_seen(held_out, most):
     described = json.loads(shared("data/double_pendulum/robot.json").read_text())

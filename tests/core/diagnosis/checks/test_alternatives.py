@@ -11,9 +11,15 @@ from tests.core.diagnosis.waves import wave_cause, wave_effect
 from veritorque.core.diagnosis.causes.friction_temperature import FrictionTemperature
 from veritorque.core.diagnosis.causes.masking import MASKED_BY, Masking
 from veritorque.core.diagnosis.checks.alternatives import Comparison, compare_alternatives
+from veritorque.core.diagnosis.checks.between_logs import BetweenLogs
+from veritorque.core.diagnosis.checks.findings import finding
+from veritorque.core.diagnosis.checks.instruments import Instruments
+from veritorque.core.diagnosis.checks.structure_left import StructureLeft
 from veritorque.core.diagnosis.search.fitter import HypothesisFitter
 from veritorque.core.diagnosis.search.hypothesis import Candidate, Hypothesis
+from veritorque.core.diagnosis.search.residuals import residual
 from veritorque.core.diagnosis.search.state import SearchState
+from veritorque.core.diagnosis.thresholds.checks import CONFIDENCE
 
 QUICK, QUICKER, SLOW = 7.0, 11.0, 4.0
 """Waves per radian: none of them is gravity."""
@@ -122,6 +128,24 @@ def test_a_name_that_a_pattern_without_one_beats_by_far_is_given_up(spoilt, kept
     cause = made_up("alike", columns)
     fitter = fitter_of(measured_arm(on_joint(product)), (cause,))
     assert compared((fitter, nothing_found(fitter)), candidate(cause))[0] == kept
+
+
+def test_a_name_stays_beside_a_pattern_that_explains_more_of_something_else_and_is_doubtful():
+    """The pattern leads in its place, and explains hardly anything of it. No other joint confirms it."""
+
+    def small(state):
+        return 0.05 * np.sin(QUICK * state.position[:, 1])
+
+    cause = made_up("small", lambda state, _: [small(state)])
+    fitter = fitter_of(measured_arm(on_joint(lambda state: product(state) + small(state))), (cause,))
+    names, kept, (found,) = compared((fitter, nothing_found(fitter)), candidate(cause))
+    assert names == ["small"]
+    assert found.over_unnamed < -found.statistic
+    assert found.stays_beside_unnamed
+    checks = Instruments(fitter, kept.chosen), StructureLeft(fitter, kept.chosen)
+    left = residual(fitter, kept.chosen)
+    named = finding(kept, found, left, 0.0, checks, BetweenLogs(fitter, kept.chosen))
+    assert named.confidence <= CONFIDENCE.doubtful
 
 
 def blow(state):
