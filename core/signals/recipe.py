@@ -26,9 +26,8 @@ LEAST_OVER_MOTION = 0.5
 KEPT_APART = 0.4
 """Kept samples are so much of a period of the cut-off apart."""
 FEWEST_KEPT = 100
-"""However noisy the positions are, so many samples are kept, where ten times the motion's band allows it: a
-log has fewer equations than unknowns below. Source: five in each of the twenty blocks that are held out in
-turn; of some thirty in a pick-and-place log of half a minute nothing could be identified."""
+"""However noisy the positions are, so many samples are kept, where ten times the motion's band allows it.
+With fewer, a log may have fewer equations than parameters. Set by hand: five in each of twenty blocks."""
 POSITION_OVER_PARALLEL = 5.0
 """Positions keep a band five times wider. So that their filter does not bend what the parallel filter
 passes."""
