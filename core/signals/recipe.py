@@ -179,7 +179,7 @@ def _choose(log: JointLog, options: FilterOptions, prismatic: Mask) -> Recipe:
     highest = min(0.4 * rate, 0.9 * nyquist)
     quiet = max(noise_cutoff(survey.positions, rate, band, speeds > still_speed), LEAST_OVER_MOTION * band)
     outweighed = quiet * (OUTWEIGHED / ATTENUATION) ** 0.2
-    wanted, why = _parallel_cutoff(band, quiet, outweighed, log.duration)
+    wanted, why = _parallel_cutoff(band, quiet, outweighed, log.samples / rate)
     cutoff = _or_default(options.cutoff_hz, min(wanted, highest / 2.0))
     position = _or_default(options.position_cutoff_hz, min(POSITION_OVER_PARALLEL * cutoff, highest))
     for name, value in (("cutoff_hz", cutoff), ("position_cutoff_hz", position)):
@@ -255,7 +255,7 @@ def _parallel_cutoff(band: float, quiet: float, outweighed: float, seconds: floa
     Parameters
     ----------
     seconds
-        Duration of the log.
+        How long the log records, without its gaps.
     """
     wide, fewest = PARALLEL_OVER_MOTION * band, KEPT_APART * FEWEST_KEPT / seconds
     if wide <= outweighed:

@@ -158,13 +158,14 @@ def _with_unnamed(fitter: HypothesisFitter, own: Comparison, unnamed: tuple[Cand
     if pattern is None:
         return own
     lead = own.bic_gain - bic_gain(own.without, pattern)
-    alone, events = own.statistic, own.over_unnamed
-    stays = lead < 0.0 <= events and keeps_beside(fitter, own.without, pattern, own.member, alone)
-    return replace(own, over_unnamed=min(events, lead), stays_beside_unnamed=stays)
+    stays = lead < 0.0 <= own.over_unnamed and keeps_beside(
+        fitter, own.without, pattern, own.member, own.statistic
+    )
+    return replace(own, over_unnamed=min(own.over_unnamed, lead), stays_beside_unnamed=stays)
 
 
 def _pattern_is_better(own: Comparison) -> bool:
-    """Tell whether an unnamed pattern explains much more than a member in its place, and its part as well."""
+    """Tell whether an unnamed pattern in a member's place explains much more, its part among it."""
     if own.stays_beside_unnamed:
         return False
     if own.member.cause.traits.transient:

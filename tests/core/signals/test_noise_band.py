@@ -64,10 +64,12 @@ def test_the_recipe_is_narrow_and_says_why_only_where_positions_are_noisy(size, 
     assert ("noise of positions" in recipe.reason) == bounded
 
 
-@pytest.mark.parametrize("seconds", [20, 24])
-def test_however_noisy_positions_are_a_hundred_samples_are_kept_where_the_motion_has_them(seconds):
+@pytest.mark.parametrize(("seconds", "pause"), [(20, 0.0), (24, 0.0), (24, 300.0)])
+def test_however_noisy_positions_are_a_hundred_samples_are_kept_where_the_motion_has_them(seconds, pause):
+    """Also where the recorder paused before the last four seconds."""
     rows = int(seconds * RATE_HZ)
-    recipe = choose_recipe(log_of(TIME[:rows], (_wandering(0.5) + _noise(0.01))[:rows]), FilterOptions())
+    time, position = TIME[:rows] + pause * (TIME[:rows] > 20.0), (_wandering(0.5) + _noise(0.01))[:rows]
+    recipe = choose_recipe(log_of(time, position), FilterOptions())
     assert 100 <= rows / recipe.decimation < 110
     assert "keeps 100 samples" in recipe.reason
     assert recipe.cutoff_hz < PARALLEL_OVER_MOTION * recipe.motion_band_hz
