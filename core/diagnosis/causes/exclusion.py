@@ -147,8 +147,8 @@ DOUBTS: tuple[Exclusion, ...] = (
     ),
     Exclusion(
         "friction_viscous_nonlinear",
-        f"the exponent is within {ADMISSIBLE.significant:g} standard deviations of 1",
-        "the friction may as well be linear, which the model has",
+        f"the exponent is within {ADMISSIBLE.significant:g} standard deviations of 0 or 1",
+        "it may as well be Coulomb or linear friction, which the model has",
     ),
     Exclusion(
         "friction_load_dependent",

@@ -41,14 +41,15 @@ class FrictionViscousNonlinear(OwnJointCause):
         )
 
     def represented(self, at: Setting, solved: FittedCause) -> bool:
-        """Doubt a power near zero, and one that may be 1.
+        """Doubt a power near zero, and one that may be 0 or 1.
 
-        Near zero it differs from Coulomb friction next to reversals only. Where it does not differ from 1
-        significantly, the friction may as well be linear.
+        Near zero it differs from Coulomb friction next to reversals only. Where it does not differ from 0 or
+        from 1 significantly, it may as well be Coulomb or linear friction, and something else is left.
         """
         del at
         power, deviation = solved.scalars["exponent"], solved.deviations.get("exponent", 0.0)
-        return power >= ADMISSIBLE.least_power and abs(power - 1.0) > ADMISSIBLE.significant * deviation
+        apart = min(power, abs(power - 1.0))
+        return power >= ADMISSIBLE.least_power and apart > ADMISSIBLE.significant * deviation
 
     def statement(self, solved: FittedCause) -> str:
         """State exponent and coefficient."""

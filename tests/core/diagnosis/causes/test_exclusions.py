@@ -106,9 +106,12 @@ def test_friction_that_differs_from_coulomb_friction_next_to_reversals_only_is_d
 
 @pytest.mark.parametrize(
     ("exponent", "deviation", "sure"),
-    [(1.1, 0.21, False), (0.74, 0.14, False), (0.74, 0.1, True), (1.7, 0.3, True), (2.5, 0.8, False)],
+    [
+        *((1.1, 0.21, False), (0.74, 0.14, False), (0.74, 0.1, True), (1.7, 0.3, True), (2.5, 0.8, False)),
+        *((0.26, 0.2, False), (0.26, 0.1, True), (0.4, 0.07, True)),
+    ],
 )
-def test_friction_that_may_as_well_be_linear_is_doubtful(exponent, deviation, sure):
+def test_friction_that_may_as_well_be_linear_or_coulombs_is_doubtful(exponent, deviation, sure):
     solved = FittedCause((1,), np.ones(1), np.eye(1), {"exponent": exponent}, {"exponent": deviation})
     look = scene(0.4)
     at = Setting(look.dataset, look.operating_point, (1,), solved.scalars)
