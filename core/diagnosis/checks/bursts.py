@@ -32,8 +32,11 @@ def burst(dataset: Dataset, residual: JointSeries) -> UnnamedPattern | None:
 
 
 def _stretches(dataset: Dataset, residual: JointSeries, joint: int) -> list[tuple[float, int, float]]:
-    """Give, per span, the median size of the joint's residual over its RMS elsewhere."""
-    rows = np.flatnonzero(dataset.usable[:, joint])
+    """Give, per span, the median size of the joint's residual over its RMS elsewhere.
+
+    Rows at rest or beside a reversal are no measure: friction that may be anything has taken what they hold.
+    """
+    rows = np.flatnonzero(dataset.clear[:, joint])
     size = np.abs(residual[rows, joint])
     squares = np.append(0.0, np.cumsum(size**2)), np.append(np.cumsum(size[::-1] ** 2)[::-1], 0.0)
     return [

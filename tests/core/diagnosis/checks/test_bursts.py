@@ -1,5 +1,7 @@
 """What happens once is noticed whatever its shape; noise, spikes and motion that comes and goes are not."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -55,6 +57,15 @@ def test_what_is_larger_in_half_of_the_log_is_no_burst():
     noise = np.random.default_rng(0).normal(size=(len(dataset.time), dataset.joints))
     noise[dataset.time > 10.0] *= 30.0
     assert burst(dataset, noise) is None
+
+
+def test_a_joint_that_moves_once_has_no_burst_while_it_does():
+    dataset = measured_arm().dataset
+    noise = np.random.default_rng(0).normal(size=(len(dataset.time), dataset.joints))
+    rests = (dataset.time < BEGIN) | (dataset.time > BEGIN + 2.0)
+    noise[rests] *= 1e-3
+    assert burst(dataset, noise) is not None
+    assert burst(replace(dataset, clear=dataset.clear & ~rests[:, None]), noise) is None
 
 
 def test_a_channel_that_is_dead_has_no_bursts():
