@@ -5,6 +5,7 @@ So after every step each member is tested for exit and against a swap with every
 Source: Miller, Subset Selection in Regression (2002), ch. 3.
 """
 
+from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 
@@ -52,9 +53,11 @@ def continue_search(
         Sets of causes from which another search went on: one that comes to them would go the same way.
     """
     state = so_far
-    for number in range(len(so_far.chosen.members), SEARCH.causes):
+    for number in range(SEARCH.causes * state.fitter.dataset.joints):
+        if _counted(state.chosen.members, state.fitter.dataset.joints) >= SEARCH.causes:
+            break
         if progress is not None:
-            progress(number / SEARCH.causes)
+            progress(number / (number + SEARCH.causes))
         better = best_entry(state.fitter, state.chosen, state.excluded)
         if better is None:
             break
@@ -73,6 +76,12 @@ def continue_search(
             if state.keys in known:
                 return state
     return state
+
+
+def _counted(members: Sequence[Candidate], joints: int) -> int:
+    """Count members; a cause that acts on half of the joints or more is one property of the robot."""
+    number = Counter(member.cause.id for member in members)
+    return sum(1 if 2 * own >= joints else own for own in number.values())
 
 
 def _start(fitter: HypothesisFitter, start: Sequence[Candidate]) -> SearchState:
@@ -102,7 +111,7 @@ def _exits_and_swaps(state: SearchState) -> Iterator[SearchState]:
     """
     yield state
     earlier = [state.keys]
-    for _ in range(2 * SEARCH.causes):
+    for _ in range(2 * len(state.chosen.members)):
         changed = _exit_or_swap(state)
         if changed is None:
             return

@@ -24,7 +24,7 @@ from veritorque.core.diagnosis.search.lr_bound import predicted_likelihood_ratio
 from veritorque.core.diagnosis.search.residuals import residual
 from veritorque.core.diagnosis.search.state import SearchState
 from veritorque.core.diagnosis.search.stepwise import confirm, search_stepwise
-from veritorque.core.diagnosis.thresholds.search import ENTRY
+from veritorque.core.diagnosis.thresholds.search import ENTRY, SEARCH
 
 QUICK, NEARLY_QUICK, QUICKER, SLOW = 7.0, 7.3, 11.0, 4.0
 """Waves per radian: none of them is gravity."""
@@ -46,6 +46,10 @@ def both(state):
 
 def names(selection: SearchState) -> list[tuple[str, tuple[int, ...]]]:
     return sorted(one.key for one in selection.chosen.members)
+
+
+def uneven_throughout(state):
+    return 0.15 * np.abs(state.velocity) + sprung(state)
 
 
 @cache
@@ -383,3 +387,18 @@ def test_nothing_is_confirmed_where_one_of_what_was_found_has_to_give_way():
     false = found_with(fitter, candidate(quick), candidate(slow))
     assert confirm(fitter.with_ordinary_noise(), false) is None
     assert confirm(fitter.with_ordinary_noise(), found_with(fitter)) is None
+
+
+def test_a_cause_on_most_joints_is_one_of_those_that_are_named_at_most(monkeypatch):
+    """Friction is seldom of one joint alone, and what else is hidden must not be lost behind it."""
+    monkeypatch.setattr(search, "SEARCH", replace(SEARCH, causes=2))
+    fitter = fitter_of(measured_arm(uneven_throughout, seed=2), CAUSES)
+    found = names(search_stepwise(fitter))
+    assert ("spring_compensator", (1,)) in found
+    assert [site for name, site in found if name == "friction_asymmetric"] == [(1,), (2,), (3,)]
+
+
+def test_no_more_causes_are_named_than_are_allowed(monkeypatch):
+    monkeypatch.setattr(search, "SEARCH", replace(SEARCH, causes=1))
+    fitter = fitter_of(measured_arm(both, seed=2), CAUSES)
+    assert len(search_stepwise(fitter).chosen.members) == 1
