@@ -44,14 +44,16 @@ def _matters(zone: DeadZone, dataset: Dataset, residual: JointSeries) -> bool:
 def _zone(dataset: Dataset, number: int, joint: int) -> DeadZone | None:
     """Give what a channel with steps takes from torques if it cuts off; None without steps.
 
-    Its p-value is 1 where it has hardly more zeros than rounding gives.
+    Its p-value is 1 where it has hardly more zeros than rounding gives: not more than of values next to it.
     """
     efforts, moving = logged_efforts(dataset, number, joint)
     step = _step(efforts)
     if step is None:
         return None
     levels = np.abs(np.round(np.where(moving, efforts, np.nan) / step))
-    zeros, beside, others = (int(np.sum(which)) for which in (levels == 0.0, levels == 1.0, levels > 0.0))
+    zeros, others = int(np.sum(levels == 0.0)), int(np.sum(levels > 0.0))
+    # Where coarse torques were interpolated, every other value is rare.
+    beside = max(int(np.sum(levels == level)) for level in (1.0, 2.0))
     if others < max(SAMPLE_CHECKS.dead_nearby * zeros, 1.0):
         return None
     ratio = zeros / max(0.5 * beside, 1.0)

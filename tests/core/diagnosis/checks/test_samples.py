@@ -14,6 +14,7 @@ from tests.core.diagnosis.causes.test_sample_checks import (
     with_torque,
 )
 from veritorque.core.diagnosis.causes.torque_dead_zone import dead_zones
+from veritorque.core.diagnosis.checks.cut_torque import cut_channels
 from veritorque.core.diagnosis.checks.samples import check_samples
 from veritorque.core.diagnosis.problem import DiagnosisProblem
 from veritorque.core.identification.reference import Reference
@@ -138,6 +139,18 @@ def test_steps_that_a_file_holds_with_few_digits_are_the_same_steps():
         0
     ].zones
     assert zone.half == pytest.approx(0.7071 * STEP, rel=1e-3)
+
+
+def between_samples(torque: np.ndarray) -> np.ndarray:
+    """Round coarsely, and interpolate halfway between samples as for other stamps: odd halves become rare."""
+    coarse = STEP * np.round(torque / STEP)
+    return 0.5 * (coarse + np.roll(coarse, 1))
+
+
+@pytest.mark.parametrize(("change", "zones"), [(cut_off, 1), (between_samples, 0)])
+def test_zeros_tell_a_cut_by_all_values_beside_them(change, zones):
+    looked = looked_at(with_torque(change))
+    assert len(list(cut_channels(looked, np.zeros_like(looked.torque)))) == zones
 
 
 @pytest.mark.parametrize("change", [np.round, np.floor], ids=["rounded", "cut downward"])
