@@ -27,13 +27,15 @@ class PositionForces(Term):
     """Least position of every joint, rad or m."""
     span: JointVector
     """By how much each moves, rad or m."""
+    waves: bool = True
+    """Whether there are waves; a spring at every joint is left without."""
     name: str = "position_forces"
 
     @classmethod
-    def over(cls, samples: Samples) -> "PositionForces":
+    def over(cls, samples: Samples, *, waves: bool = True) -> "PositionForces":
         """Take the range that the joints move in."""
         least = samples.position.min(axis=0)
-        return cls(least, samples.position.max(axis=0) - least)
+        return cls(least, samples.position.max(axis=0) - least, waves)
 
     def parameters(self, robot: RobotModel) -> tuple[Parameter, ...]:
         """List the coefficients, in N m (N)."""
@@ -61,6 +63,10 @@ class PositionForces(Term):
     def _shapes(self) -> list[tuple[int, int, int]]:
         """List joint and joint whose position it follows, both from 0, and half waves; none for the line."""
         joints = len(self.span)
+        if not self.waves:
+            return [
+                (joint, joint, 0) for joint in range(joints) if self.span[joint] > POSITION_FORCES.least_span
+            ]
         return [
             (joint, other, order)
             for joint in range(joints)
@@ -70,7 +76,7 @@ class PositionForces(Term):
         ]
 
 
-def beside_forces(trials: Trials, setup: Setup) -> Trials:
-    """Give trials on the same samples whose model has such forces."""
-    forces = PositionForces.over(trials.samples.moved(setup.assignment))
+def beside_forces(trials: Trials, setup: Setup, *, waves: bool = True) -> Trials:
+    """Give trials on the same samples whose model has such forces, or springs alone."""
+    forces = PositionForces.over(trials.samples.moved(setup.assignment), waves=waves)
     return Trials(trials.samples, trials.terms, beside=(forces,))

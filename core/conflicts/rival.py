@@ -91,9 +91,10 @@ def _merged(sets: list[frozenset[Part]]) -> list[frozenset[Part]]:
 
 
 def score_with_forces(setup: Setup, trials: Trials, used: JointMarks | None = None) -> float:
-    """Judge a set-up with these forces, on some joints; the worst of all where it cannot be fitted."""
-    beside = beside_forces(trials, setup)
-    outcome = beside.outcome(setup)
-    if outcome is None:
-        return np.inf
-    return outcome.score if used is None else float(mean_log(outcome.errors[used]))
+    """Judge a set-up with these forces or with springs, on some joints; the worst where none can be fitted.
+
+    Waves that are fitted in one place say nothing of another, as where joints move in turn; a spring does.
+    """
+    outcomes = [beside_forces(trials, setup, waves=waves).outcome(setup) for waves in (True, False)]
+    fitted = [own.errors if used is None else own.errors[used] for own in outcomes if own is not None]
+    return min((float(mean_log(errors)) for errors in fitted), default=np.inf)

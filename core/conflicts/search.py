@@ -53,7 +53,7 @@ def _as_sure_as_they_fit(path: Path, trials: Trials) -> Path:
     """Limit the confidence of corrections after which the model still fails on a joint.
 
     So too where they leave more than half of an error that is still in doubt, also beside forces that follow
-    the positions: the true correction is another.
+    the positions: the true correction is another. And so where they take an offset for gravity.
     """
     if not path:
         return path
@@ -63,7 +63,17 @@ def _as_sure_as_they_fit(path: Path, trials: Trials) -> Path:
     most = max(np.log(DOUBT.unexplained), float(mean_log(before.errors[used])) + np.log(DECISION.least_share))
     fails = float(np.max(last.after.errors[used], initial=0.0)) > DECISION.failed
     fails = fails or (score > most and score_with_forces(last.hypothesis.setup, trials, used) > most)
+    fails = fails or _needs_offset(path[0].before, last.after)
     return unsure(path) if fails else tuple(_as_sure_as_absent(step) for step in path)
+
+
+def _needs_offset(before: Outcome, after: Outcome) -> bool:
+    """Tell whether a joint needs an offset as large as its torque after corrections, and needed less before.
+
+    Under a wrong direction of gravity, a slide's weight is an offset of its force.
+    """
+    large = after.offsets > DECISION.offset
+    return bool(np.any(large & (after.offsets > before.offsets)))
 
 
 def _as_sure_as_absent(step: FoundConflict) -> FoundConflict:

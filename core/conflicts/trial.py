@@ -11,10 +11,11 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import JointMarks, JointVector, SampleMask, Series
-from ..dynamics.model import standard_model
+from ..arrays import JointMarks, JointVector, Parameters, SampleMask, Series
+from ..dynamics.model import DynamicModel, standard_model
 from ..dynamics.term import Term
 from ..dynamics.terms.coulomb import Coulomb
+from ..dynamics.terms.offset import Offset
 from ..errors import SolverError
 from ..estimate.constraints import Bounds, default_prior
 from ..estimate.programme import Programme
@@ -48,6 +49,8 @@ class Outcome:
     """Mean logarithm of the same on the rows that were fitted."""
     bound: float
     """What it would be there without constraints."""
+    offsets: JointVector
+    """Torque offset over RMS torque per joint, both without sign."""
 
     @property
     def score(self) -> float:
@@ -135,7 +138,9 @@ class Trials:
         values = base.base_of(solution.standard)
         fitted = float(mean_log(equations.errors(values, judged=False)))
         errors, unpredicted = equations.errors(values, judged=True), equations.unpredicted(values)
-        return Outcome(errors, unpredicted, fitted, float(reduced.bound))
+        squares = reduced.rows * _offsets(base.model, solution.standard) ** 2
+        offsets = np.sqrt(squares / np.where(reduced.torques > 0.0, reduced.torques, np.inf))
+        return Outcome(errors, unpredicted, fitted, float(reduced.bound), offsets)
 
     def under_gravity(self, setup: Setup) -> Callable[[np.ndarray], np.ndarray]:
         """Give the bound as a function of gravity in the base frame, m/s2, in which torque is linear."""
@@ -222,6 +227,15 @@ def _motion_key(setup: Setup) -> tuple[object, ...]:
     """Tell set-ups of one motion, whose torques alone may differ."""
     assignment = setup.assignment
     return setup.robot.links, tuple(setup.robot.gravity), assignment.position, assignment.time_factor
+
+
+def _offsets(model: DynamicModel, standard: Parameters) -> JointVector:
+    """Give the size of every joint's torque offset, N m or N; zero where the model has none."""
+    found = np.zeros(len(model.robot.joints))
+    for parameter, value in zip(model.parameters, standard, strict=True):
+        if parameter.symbol == Offset.symbol[0]:
+            found[parameter.number - 1] = abs(value)
+    return found
 
 
 def _difference(rows: Rows, others: Rows) -> list[Series]:
