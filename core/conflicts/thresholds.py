@@ -74,7 +74,7 @@ class Decision:
     """Mean error in one of them above which the corrections are not known to be right. Set by hand: true ones
     of the measured robots leave at most 0.15."""
     offset: float = 1.0
-    """Torque offset over RMS torque of a joint above which a corrected set-up may need it to stand for gravity.
+    """Torque offset over RMS torque of a joint above which it may stand for gravity after a correction.
     Set by hand: true corrections of eight robots leave at most 0.55."""
     same_rows: float = 0.5
     """Share of the rows in which a torque is judged after a correction that it was judged in before.
