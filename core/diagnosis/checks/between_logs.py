@@ -75,6 +75,16 @@ class BetweenLogs:
         """List the blocks of all logs that are not held out."""
         return [block for log in self._blocks for block in log if block.gram.any()]
 
+    @cached_property
+    def equations(self) -> BlockSolution:
+        """Give the equations of all of them together, and of the prior, if there is one."""
+        prior, values = self.chosen.fit.prior, self.chosen.fit.values
+        if prior is None:
+            return BlockSolution(self.fitted_blocks)
+        known, first = BlockEquations.empty(len(values)), np.arange(prior.rows.shape[1])
+        known.add(first, prior.rows, prior.target - prior.rows @ values[first])
+        return BlockSolution(self.fitted_blocks, (known,))
+
     def _weight(self, index: int) -> Vector:
         """Give the weights of all values of which a member's size, over its own, is the sum."""
         own = self.chosen.columns_of(index)

@@ -35,15 +35,26 @@ class BlockEquations:
 
 @dataclass(frozen=True, eq=False)
 class BlockSolution:
-    """Solve the equations of some blocks together."""
+    """Solve the equations of some blocks together, with some that belong to no block, as a prior's."""
 
     blocks: Sequence[BlockEquations]
+    known: tuple[BlockEquations, ...] = ()
 
     @cached_property
     def change(self) -> Vector:
         """Give by how much the values change where these blocks alone are fitted."""
-        slope = np.sum([block.slope for block in self.blocks], axis=0)
+        slope = np.sum([block.slope for block in (*self.blocks, *self.known)], axis=0)
         return self._solved(slope)
+
+    @cached_property
+    def left_out(self) -> Matrix:
+        """Give by how much the values change where one block after the other is left out, blocks x values.
+
+        A value that the others do not show stays.
+        """
+        blocks = list(self.blocks)
+        others = (BlockSolution(blocks[:at] + blocks[at + 1 :], self.known) for at in range(len(blocks)))
+        return np.array([other.change for other in others]) - self.change
 
     def deviations(self, weights: Matrix) -> Vector:
         """Give the deviations of weighted sums of the values, along columns, by the scatter of blocks."""
@@ -73,7 +84,7 @@ class BlockSolution:
 
     @cached_property
     def _factor(self) -> tuple[tuple[np.ndarray, bool], Vector]:
-        gram = np.sum([block.gram for block in self.blocks], axis=0)
+        gram = np.sum([block.gram for block in (*self.blocks, *self.known)], axis=0)
         squares = np.diag(gram)
         scale = np.sqrt(np.where(squares > 0.0, squares, 1.0))
         return cho_factor(gram / np.outer(scale, scale) + BLOCK_SCATTER.ridge * np.eye(len(gram))), scale

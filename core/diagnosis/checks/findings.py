@@ -70,7 +70,7 @@ def finding(
     margin = min(own.margin, over_unnamed, own.statistic - unnamed)
     evidence = predictors(own.statistic, margin, measured)
     at = Setting(dataset, fitter.operating_point, member.site, member.scalars)
-    scattered = _between_blocks(fitter, chosen, index, own)
+    scattered = _between_blocks(found, own, logs)
     in_log = logs.least_size(index)
     represented = cause.represented(at, solved) and has_known_size(cause, solved)
     several = several_sizes(fitter, chosen, index, logs)
@@ -159,12 +159,12 @@ def _evidence(own: Comparison, log_p: float, trials: float) -> tuple[Evidence, .
 
 
 def _between_blocks(
-    fitter: HypothesisFitter, chosen: Hypothesis, index: int, own: Comparison
+    found: SearchState, own: Comparison, logs: BetweenLogs
 ) -> tuple[Evidence, ...]:
     """Give its p-value by the scatter between blocks; not of a transient cause, which is in few of them."""
     if own.member.cause.traits.transient:
         return ()
-    log_p = block_log_p(fitter, chosen, index, own.statistic)
+    log_p = block_log_p(found.fitter, found.chosen, own.index, own.statistic, logs.equations)
     return (
         Evidence(
             "Logarithm of the p-value by the scatter between parts of the log, corrected in the same way; "
