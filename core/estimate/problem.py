@@ -266,6 +266,8 @@ class ObservedProblem:
     def check_excitation(self) -> None:
         """Refuse a motion in which no inertia takes any torque: every joint keeps its speed.
 
+        Slides alone never show a moment of inertia, as a body has one that is attached to them: theirs is mass.
+
         Raises
         ------
         ExcitationError
@@ -275,7 +277,8 @@ class ObservedProblem:
         parameters = [plan.model.parameters[column] for column in plan.columns]
         norms = np.linalg.norm(ordinary(self.factors, self.columns_of, self.size).triangle, axis=0)
         idle = [parameter.name for parameter, norm in zip(parameters, norms, strict=True) if norm == 0.0]
-        inertias = {parameter.name for parameter in parameters if parameter.unit == "kg m2"}
+        turns = any(link.kind == "revolute" for link in plan.model.robot.links)
+        inertias = {parameter.name for parameter in parameters if turns and parameter.unit == "kg m2"}
         if inertias and inertias <= set(idle):
             raise ExcitationError(
                 "no joint changes its speed, so that no inertia shows in the torque",

@@ -9,6 +9,7 @@ from veritorque.core.errors import ExcitationError
 from veritorque.core.log.model import JointLog, whole_rows
 from veritorque.core.log.reader import log_from_arrays
 from veritorque.core.report.page.page import compose_page
+from veritorque.core.robot.description import robot_from_description
 from veritorque.core.signals.state import MotionState
 from veritorque.core.study import IdentifyRequest, diagnose, identify
 
@@ -77,3 +78,18 @@ def test_a_joint_that_stands_gains_nothing_that_is_known_and_has_no_bar_in_the_r
     assert "joint 1:" not in page
     page = compose_page(identify(IdentifyRequest(MODEL.robot, (log,))))
     assert "on every joint that moves)" in page
+
+
+def test_a_body_that_a_slide_takes_up_is_named_though_no_moment_of_inertia_shows():
+    robot = robot_from_description(
+        {"name": "slide", "joints": [{"type": "prismatic", "alpha": 0.0, "d": 0.0, "r": 0.0, "theta_offset": 0.0}],
+         "gravity": [0.0, 0.0, 0.0]}
+    )  # fmt: skip
+    time = np.arange(6000) / 250.0
+    position = 0.1 * np.sin(2.2 * time) + 0.05 * np.sin(5.0 * time + 1.0) + 0.02 * np.sin(12.0 * time + 2.0)
+    velocity = np.gradient(position, time)
+    torque = (20.0 + 5.0 * (time > 12.0)) * np.gradient(velocity, time)
+    torque += 30.0 * velocity + 4.0 * np.sign(velocity) + 0.3 * np.random.default_rng(1).normal(size=len(time))
+    log = log_from_arrays("taken up", time, position[:, None], torque[:, None])
+    found = diagnose(IdentifyRequest(robot, (log,)))["diagnosis"]["findings"]
+    assert "payload_change" in {finding["cause"] for finding in found}
