@@ -81,10 +81,8 @@ def test_a_joint_that_stands_gains_nothing_that_is_known_and_has_no_bar_in_the_r
 
 
 def test_a_body_that_a_slide_takes_up_is_named_though_no_moment_of_inertia_shows():
-    robot = robot_from_description(
-        {"name": "slide", "joints": [{"type": "prismatic", "alpha": 0.0, "d": 0.0, "r": 0.0, "theta_offset": 0.0}],
-         "gravity": [0.0, 0.0, 0.0]}
-    )  # fmt: skip
+    slide = {"type": "prismatic", "alpha": 0.0, "d": 0.0, "r": 0.0, "theta_offset": 0.0}
+    robot = robot_from_description({"name": "slide", "joints": [slide], "gravity": [0.0, 0.0, 0.0]})
     time = np.arange(6000) / 250.0
     position = 0.1 * np.sin(2.2 * time) + 0.05 * np.sin(5.0 * time + 1.0) + 0.02 * np.sin(12.0 * time + 2.0)
     velocity = np.gradient(position, time)

@@ -162,11 +162,6 @@ DOUBTS: tuple[Exclusion, ...] = (
     ),
     Exclusion(
         "friction_presliding",
-        f"the level exceeds the joint's Coulomb friction by {ADMISSIBLE.level_deviations:g} standard deviations",
-        "what builds up after a reversal is Coulomb friction; more would push the joint on",
-    ),
-    Exclusion(
-        "friction_presliding",
         "a joint that lags behind the logged positions in a controller's loop explains the torque better",
         "the positions may be the reference, and dry friction holds a joint where its reference turns round",
     ),

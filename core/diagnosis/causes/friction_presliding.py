@@ -45,13 +45,10 @@ class FrictionPresliding(OwnJointCause):
         return super().admissible(solved) and near and bool(solved.values[0] > 0.0)
 
     def represented(self, at: Setting, solved: FittedCause) -> bool:
-        """Doubt a level that may as well be Coulomb friction, which the model has, or that exceeds it.
-
-        What builds up after a reversal is that friction. More would push the joint on as it begins to move.
-        """
+        """Doubt a level that may as well be Coulomb friction, which the model has."""
+        del at
         level = self.by_name(solved)["coulomb_level"]
-        apart = ADMISSIBLE.level_deviations * level.standard_deviation
-        return apart <= level.value <= at.operating_point.coulomb(at.joint) + apart
+        return level.value >= ADMISSIBLE.level_deviations * level.standard_deviation
 
     def statement(self, solved: FittedCause) -> str:
         """State level and presliding distance."""

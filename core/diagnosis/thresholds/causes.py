@@ -70,10 +70,8 @@ class Admissible:
     """Radians (metres) over which friction may build up after a reversal. Set by hand: measured gears have
     some milliradians; 1.2 were fitted to what a zero error of another joint left."""
     level_deviations: float = 3.0
-    """Standard deviations of a presliding level below which a finding is doubtful, and by which it may exceed
-    the joint's Coulomb friction. Source: measured robots whose torque was made late left 2.0 and 2.2; of 12
-    simulated ones 11 have more than 4. Five true levels exceed Coulomb friction by at most 1.2; that of an
-    independent simulation whose reference was logged by 4.0."""
+    """Standard deviations of a presliding level below which a finding is doubtful. Source: measured robots
+    whose torque was made late left 2.0 and 2.2; of 12 simulated ones 11 have more than 4."""
     ripple_harmonic: float = 2.0
     """Cycles per revolution of a torque ripple: gravity has one."""
     friction_harmonic: float = 0.5

@@ -135,16 +135,6 @@ def test_a_presliding_level_that_may_as_well_be_coulomb_friction_is_doubtful(dev
     assert FrictionPresliding().represented(at, solved) is sure
 
 
-@pytest.mark.parametrize(("over_coulomb", "sure"), [(0.5, True), (1.0, True), (1.1, True), (1.5, False)])
-def test_no_more_friction_than_the_joint_has_builds_up_after_a_reversal(over_coulomb, sure):
-    look = scene(0.4)
-    at = Setting(look.dataset, look.operating_point, (1,), {"presliding_distance": 2e-3})
-    coulomb = look.operating_point.coulomb(1)
-    level, deviation = over_coulomb * coulomb, 0.1 * coulomb
-    solved = FittedCause((1,), np.array([level]), np.array([[deviation**2]]), dict(at.scalars), {})
-    assert FrictionPresliding().represented(at, solved) is sure
-
-
 @pytest.mark.parametrize(("time_constant", "sure"), [(0.7, False), (2.9, False), (3.5, True), (600.0, True)])
 def test_an_offset_that_has_settled_within_seconds_is_doubtful(time_constant, sure):
     look = scene(0.4)
