@@ -20,10 +20,13 @@ ROWS, WIDE = 20, 0.8
 """More than this share of so many rows below a header has to be as wide as the header."""
 SEARCHED_LINES = 200
 """The header has to come within so many lines that are no comments."""
+COMMENT = re.compile(r"\s*(#+|//+|%%+|%(?=\s|$))")
+"""Begins a comment above the rows. `%time` is the first name of a header."""
 STAMP = re.compile(
-    r"(?P<date>\d{4}-\d{2}-\d{2}[T ])?\d{2}:\d{2}:\d{2}([.,]\d{1,9})?(?P<zone>Z|[+-]\d{2}:?\d{2})?"
+    r"((?P<date>\d{4}-\d{2}-\d{2}[T ])|\d{1,4}([./-])\d{1,2}\3\d{1,4}[ ,T]+|\d+ days? )?"
+    r"\d{1,2}:\d{2}:\d{2}([.,]\d{1,9}|:\d{3})?(?P<zone>Z|[+-]\d{2}:?\d{2})?"
 )
-"""A date with a time of day, or a time of day alone (ISO 8601)."""
+"""A time of day, alone, after a date (ISO 8601 or as people write it), or after a count of days."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +71,7 @@ def find_header(lines: Sequence[str]) -> TextHeader | None:
 
 def is_comment(line: str) -> bool:
     """Tell whether a line is blank or a comment."""
-    return not line.strip() or line.lstrip().startswith("#")
+    return not line.strip() or COMMENT.match(line) is not None
 
 
 def split_cells(line: str, delimiter: str) -> list[str]:
@@ -100,19 +103,26 @@ def _header_at(lines: Sequence[str], content: Sequence[int], place: int) -> Text
         if len(names) < 2 or any(map(is_number, names)) or not any(names):
             continue
         rows = _rows(lines, content[place + 1 : place + 1 + ROWS], delimiter)
+        if rows and all(len(row) == len(names) + 1 and not row[-1] for row in rows):
+            names.append("")  # the rows end with a separator, and the header does not
         if not _are_wide(rows, len(names)):
             continue
         if _is_row(rows[0], len(names)):
-            return _found(lines, content, place, delimiter, rows_at=1)
+            return _found(lines, content, place, delimiter, names, rows_at=1)
         if len(rows) > 1 and _are_units(rows[0], len(names)) and _is_row(rows[1], len(names)):
-            return _found(lines, content, place, delimiter, rows_at=2)
+            return _found(lines, content, place, delimiter, names, rows_at=2)
     return None
 
 
 def _found(
-    lines: Sequence[str], content: Sequence[int], place: int, delimiter: str, *, rows_at: int
+    lines: Sequence[str],
+    content: Sequence[int],
+    place: int,
+    delimiter: str,
+    names: Sequence[str],
+    *,
+    rows_at: int,
 ) -> TextHeader:
-    names = split_cells(lines[content[place]], delimiter)
     units = split_cells(lines[content[place + 1]], delimiter) if rows_at == 2 else []
     first = content[place + rows_at]
     return TextHeader(
@@ -129,7 +139,8 @@ def _found(
 
 def _commented(lines: Sequence[str], index: int) -> TextHeader | None:
     """Take the comment right above numbers for the header, as numpy.savetxt writes it."""
-    above = next(filter(str.strip, reversed(lines[:index])), "").lstrip("# ")
+    above = next(filter(str.strip, reversed(lines[:index])), "")
+    above = above[mark.end() :].strip() if (mark := COMMENT.match(above)) else above
     for delimiter in _delimiters(lines[index]):
         row, names = split_cells(lines[index], delimiter), split_cells(above, delimiter)
         if len(row) == len(names) > 1 and all(map(is_number, row)) and not any(map(is_number, names)):
@@ -142,11 +153,13 @@ def _without_header(lines: Sequence[str], content: Sequence[int], place: int) ->
     """Take the line for the first row of a table without header if the next has as many numbers."""
     index = content[place]
     for delimiter in _delimiters(lines[index]):
-        if any(len(row) > 1 for row in _rows(lines, content[:place], delimiter)):
+        above = _rows(lines, content[:place], delimiter)
+        if any(len(row) > 1 and not all(map(is_number, row)) for row in above):
             continue  # what stands above may be a header that does not fit
         cells = split_cells(lines[index], delimiter)
-        next_rows = _rows(lines, content[place + 1 : place + 2], delimiter)
-        if _are_numbers(cells) and all(len(row) == len(cells) for row in next_rows):
+        next_rows = _rows(lines, content[place + 1 : place + 1 + ROWS], delimiter)
+        begins = _are_numbers(cells) and all(len(row) == len(cells) for row in next_rows[:1])
+        if begins or _repeat_words(cells, next_rows):
             return TextHeader((), len(cells), delimiter, lines[index], index, titles=place)
     return None
 
@@ -159,6 +172,15 @@ def _are_numbers(cells: Sequence[str]) -> bool:
     """Tell whether cells hold numbers or nothing, and at least two of them numbers."""
     filled = [cell for cell in cells if cell]
     return len(filled) > 1 and all(map(is_number, filled))
+
+
+def _repeat_words(cells: Sequence[str], rows: Sequence[Sequence[str]]) -> bool:
+    """Tell whether every row holds the same words in the same places, and numbers in two or more others."""
+    words = {place: cell for place, cell in enumerate(cells) if cell and not is_number(cell)}
+    if not rows or len(list(filter(None, cells))) < len(words) + 2:
+        return False
+    wide = all(len(row) == len(cells) for row in rows)
+    return wide and all(row[place] == word for row in rows for place, word in words.items())
 
 
 def _delimiters(line: str) -> Iterator[str]:
