@@ -137,32 +137,36 @@ def _split(part: _Part) -> list[_Part]:
     """
     alike: dict[bytes, list[str]] = {}
     for name, values in part.columns.items():
-        known = np.isfinite(values)
-        alike.setdefault(known.tobytes() if np.mean(known) < 1.0 - SPARSE else b"", []).append(name)
+        alike.setdefault(_instants(values).tobytes(), []).append(name)
     parts = []
     for rows, names in alike.items():
-        known = np.frombuffer(rows, dtype=bool) if rows else np.ones(len(part.time), dtype=bool)
-        if known.any():
-            own = {name: part.columns[name][known] for name in names}
-            label = part.name if len(alike) == 1 else f"{names[0]} and {len(names) - 1} more"
-            parts.append(_Part(part.name, part.stamp, part.time[known], own, label))
-    for own_part in parts:
-        _check_stamps(own_part)
-    return parts or [part]
+        known = np.frombuffer(rows, dtype=bool)
+        own = {name: part.columns[name][known] for name in names}
+        parts.append(_Part(part.name, part.stamp, part.time[known], own, _label(part, names)))
+    return [_in_order(own_part) for own_part in parts if len(own_part.time)] or [_in_order(part)]
 
 
-def _check_stamps(part: _Part) -> None:
+def _label(part: _Part, names: Sequence[str]) -> str:
+    """Call columns by the first of them, where they are not all of a file."""
+    return part.name if len(names) == len(part.columns) else f"{names[0]} and {len(names) - 1} more"
+
+
+def _instants(values: Samples) -> SampleMask:
+    """Mark the rows at which a column was recorded: all, unless many lack a value."""
+    known = np.isfinite(values)
+    return known if np.mean(known) < 1.0 - SPARSE else np.ones(len(values), dtype=bool)
+
+
+def _in_order(part: _Part) -> _Part:
+    """Give the part if its stamps increase."""
     steps = np.diff(part.time)
     if not np.all(steps > 0.0):
         raise LogError(
             "the stamps of a file that is to be joined do not increase",
-            evidence={
-                "file": part.name,
-                "column": part.stamp,
-                "not_increasing": int(np.sum(~(steps > 0.0))),
-            },
+            evidence={"file": part.name, "column": part.stamp, "not_increasing": int(np.sum(~(steps > 0.0)))},
             remedy="join files of one run each, whose stamps increase",
         )
+    return part
 
 
 def _stamp(table: Table, path: Path) -> str:

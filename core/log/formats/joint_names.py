@@ -7,6 +7,7 @@ often in the order of the alphabet. A place in that list is no number of a joint
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 
 from ...arrays import Series
 from ...errors import LogError
@@ -16,7 +17,7 @@ QUANTITIES = ("position", "velocity", "effort")
 """Fields of a joint state, in the order of the message."""
 BEFORE_NAMES = ("sec", "nanosec", "frame_id")
 """What stands before the names where there is no header."""
-_NAME = re.compile(r"(.*\.)?name\.?(\d+)")
+_NAME = re.compile(r"(.*\.|)name(\d+)")
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ class _Renamed:
 
 
 def name_joints(table: Table) -> Table:
-    """Name the columns of positions, velocities and efforts by their joints; the table as it is without names.
+    """Name the columns of positions, velocities and efforts by their joints, where the rows name these.
 
     Raises
     ------
@@ -73,33 +74,29 @@ def name_joints(table: Table) -> Table:
 
 def _with_header(table: Table) -> dict[str, str]:
     """Give new names for columns such as `field.position0`, of the joint that `field.name0` names."""
-    found = {name: match for name in table.texts if (match := _NAME.fullmatch(name))}
-    joints = {match.groups(""): _joint(table, name) for name, match in found.items()}
-    places = {
-        f"{before}{quantity}{dot}{place}": f"{before}{quantity}.{joint}"
-        for (before, place), joint in joints.items()
-        for quantity in QUANTITIES
-        for dot in ("", ".")
-    }
-    if places.keys().isdisjoint(table.names):
-        return {}
-    return {name: places.get(name, name) for name in table.names if name not in found}
+    found = filter(None, map(_NAME.fullmatch, table.texts))
+    named = [match for match in found if f"{match[1]}position{match[2]}" in table.names]
+    places: dict[str, str] = {}
+    for match in named:
+        joint = _joint(table, match[0])
+        places |= {f"{match[1]}{value}{match[2]}": f"{match[1]}{value}.{joint}" for value in QUANTITIES}
+    kept = set(table.names) - {match[0] for match in named}
+    return {name: places.get(name, name) for name in table.names if name in kept} if named else {}
 
 
 def _without_header(table: Table) -> dict[str, str]:
-    """Give names for a joint state of seconds, nanoseconds, frame, names, and three numbers for each of these."""
-    names, first = table.names, len(BEFORE_NAMES)
-    if not all(name.startswith(BY_NUMBER) for name in names):
+    """Give names for a joint state: seconds, nanoseconds, frame, names, and three numbers for each name."""
+    if not all(name.startswith(BY_NUMBER) for name in table.names):
         return {}
     texts = set(table.texts)
-    words = next((at for at in range(first, len(names)) if names[at] not in texts), first) - first
-    if not words or len(names) != first + words * (1 + len(QUANTITIES)):
+    before, rest = table.names[: len(BEFORE_NAMES)], table.names[len(BEFORE_NAMES) :]
+    named = list(takewhile(texts.__contains__, rest))
+    if not named or len(rest) != len(named) * (1 + len(QUANTITIES)):
         return {}
-    joints = [_joint(table, name) for name in names[first : first + words]]
+    joints = [_joint(table, name) for name in named]
     columns = [f"{quantity}.{joint}" for quantity in QUANTITIES for joint in joints]
-    return dict(zip(names[: first - 1], BEFORE_NAMES, strict=False)) | dict(
-        zip(names[first + words :], columns, strict=True)
-    )
+    clock = dict(zip(before[:2], BEFORE_NAMES, strict=False))
+    return clock | dict(zip(rest[len(named) :], columns, strict=True))
 
 
 def _joint(table: Table, column: str) -> str:

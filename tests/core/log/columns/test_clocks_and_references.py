@@ -1,4 +1,4 @@
-"""A suggestion takes no count of rows for the clock, and nothing that was asked for or derived as measured."""
+"""A suggestion takes no count of rows for the clock, and nothing asked for or derived as measured."""
 
 import numpy as np
 import pytest

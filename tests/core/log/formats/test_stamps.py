@@ -1,4 +1,4 @@
-"""Dates and times of day are read as recorders write them: nanoseconds, dates of a country, counts of days."""
+"""Dates and times of day are read as recorders write them: nanoseconds, days first, counts of days."""
 
 from datetime import UTC, datetime, timedelta
 

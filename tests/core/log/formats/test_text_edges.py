@@ -1,4 +1,4 @@
-"""Small slips of recorders at the edges of a text table cost nothing: trailing marks, comments, a cut first row."""
+"""Slips of recorders at the edges of a text table cost nothing: trailing marks, comments, half a row."""
 
 import numpy as np
 import pytest
