@@ -269,11 +269,12 @@ def _is_ordered(profile: str, names: Sequence[str]) -> bool:
 
 
 def _own_clock(profile: str, table: Table) -> dict[str, object]:
-    """Give the clock where the profile leaves its unit open, or its steps are of another size."""
+    """Give the clock where the file calls it otherwise, the profile leaves its unit open, or sizes differ."""
     filled = fill_in({PROFILE: profile}, table.names)
-    clock = filled.get(TIME) if isinstance(filled, dict) else None
+    channels = filled if isinstance(filled, dict) else {}
+    clock = channels.get(TIME)
     if not isinstance(clock, dict):
-        return {}
+        return _clock({name: request["columns"] for name, request in channels.items()}, table)
     unit = _unit(TIME, table, clock["column"])
     return {} if unit in (UNKNOWN, clock.get("unit")) else {TIME: clock | {"unit": unit}}
 

@@ -5,6 +5,8 @@ import pytest
 
 from tests.core.log.writers import swing, write_csv
 from veritorque.core.errors import LogError
+from veritorque.core.log.columns.plausible_units import plausible_readings
+from veritorque.core.log.model import whole_rows
 from veritorque.core.log.reader import read_log
 
 COLUMNS = swing(joints=2)
@@ -50,3 +52,24 @@ def test_what_is_called_by_fewer_words_is_the_measured_channel(derived, measured
     mapping = suggested(tmp_path / "log.csv", table)
     assert mapping["position"]["columns"] == [f"field.{measured[0]}{joint}" for joint in JOINTS]
     assert mapping["torque"]["columns"] == [f"field.{measured[1]}{joint}" for joint in JOINTS]
+
+
+@pytest.mark.parametrize("clock", ["timestamp", "t", "elapsed"])
+@pytest.mark.parametrize(
+    ("position", "torque"),
+    [("position.joint_", "effort.joint_"), ("state.q[{}]", "state.tau_J[{}]"), ("mp", "mt")],
+)
+def test_a_profile_is_suggested_with_the_clock_that_the_file_has(clock, position, torque, tmp_path):
+    table = {clock: TIME}
+    for stem, channel in ((position, "q"), (torque, "tau")):
+        named = stem if "{}" in stem else stem + "{}"
+        table |= {named.format(joint + 1): COLUMNS[f"{channel}_{joint + 1}"] for joint in JOINTS}
+    mapping = suggested(tmp_path / "log.csv", table)
+    assert mapping["time"] == {"column": clock, "unit": "s"}
+    rows = whole_rows(read_log(tmp_path / "log.csv", mapping=mapping))
+    np.testing.assert_allclose(rows.position[:, 1], COLUMNS["q_2"], atol=1e-9)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_single_value_beside_a_log_is_no_clock():
+    assert plausible_readings("time", np.array([100.0])) == []
