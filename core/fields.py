@@ -56,6 +56,8 @@ class Fields:
     largest: ClassVar[float] = LARGEST_NUMBER
     longest: ClassVar[int] = LONGEST_NAME
     """Largest magnitude of a number, greatest length of a text."""
+    elsewhere: ClassVar[Mapping[str, str]] = {}
+    """Names that other documents give to such fields, each with what to do."""
     holds: ClassVar[str] = "given"
     """Name of a refused value in the evidence."""
 
@@ -77,7 +79,10 @@ class Fields:
                     "known": list(meanings),
                     "nearest": get_close_matches(unknown[0], list(meanings)),
                 },
-                remedy="leave it out or spell it as one of the known fields",
+                remedy=next(
+                    filter(None, map(self.elsewhere.get, unknown)),
+                    "leave it out or spell it as one of the known fields",
+                ),
             )
         self.value = value
 

@@ -17,8 +17,8 @@ import pyarrow.parquet as pq
 
 from ..arrays import Instants, SampleMask, Samples
 from ..errors import LogError
-from .channels import CHANNELS, TIME, UNITS
-from .columns.families import channel_of, name_words
+from .channels import TIME, UNITS
+from .columns.families import channel_of, clocks
 from .columns.named_units import unit_called, unit_in_name
 from .columns.plausible_units import plausible_readings
 from .defects.stretch import count_text
@@ -26,6 +26,8 @@ from .formats.table import Table, check_values
 from .reader import open_table
 
 CUBIC_POINTS = 4
+SPARSE = 0.1
+"""A column that lacks more than this part of its values was recorded at instants of its own."""
 FEWEST_SHARED = 0.5
 """Files that share less than this part of the shortest one's time do not belong together."""
 
@@ -50,10 +52,12 @@ class _Part:
     stamp: str
     time: Samples
     columns: dict[str, Samples]
+    label: str
+    """What it is called in notes."""
 
 
 def join_logs(paths: Sequence[Path]) -> Joined:
-    """Join files by their stamps.
+    """Join files by their stamps, or the channels of one file that were recorded at instants of their own.
 
     Columns keep their names; those that several files have get the name of their file in front.
 
@@ -62,7 +66,7 @@ def join_logs(paths: Sequence[Path]) -> Joined:
     LogError
         If a file has no clock, or clocks share less than half of the shortest file's time.
     """
-    parts = [_read(path) for path in paths]
+    parts = list(chain(*(_split(_read(path)) for path in paths)))
     first = _leading(parts)
     inside = _shared_time(parts, first.time)
     clock = first.time[inside]
@@ -74,11 +78,11 @@ def join_logs(paths: Sequence[Path]) -> Joined:
             own = f"{part.name}_{name}" if name in taken else name
             columns[own] = values[inside] if same else _brought(name, clock, part.time, values)
         if not same:
-            notes.append(f"{part.name}: interpolated at the stamps of {first.name}")
+            notes.append(f"{part.label}: interpolated at the stamps of {first.label}")
     check_values(len(columns) * len(clock))
     outside = int(np.count_nonzero(~inside))
     if outside:
-        notes.append(f"{count_text(outside, 'row')} of {first.name} outside the shared time left out")
+        notes.append(f"{count_text(outside, 'row')} of {first.label} outside the shared time left out")
     return Joined(columns, tuple(notes))
 
 
@@ -120,22 +124,53 @@ def _read(path: Path) -> _Part:
     numbers = [name for name in table.names if name != stamp and name not in table.texts]
     block = np.hstack(list(table.batches([stamp, *numbers])))
     time = block[0] * _seconds(table, stamp, block[0])
-    if not np.all(np.diff(time) > 0.0):
+    return _Part(path.stem, stamp, time, dict(zip(numbers, block[1:], strict=True)), path.stem)
+
+
+def _split(part: _Part) -> list[_Part]:
+    """Part columns that have values at instants of their own, each with its own stamps.
+
+    Raises
+    ------
+    LogError
+        If the stamps of a part do not increase.
+    """
+    alike: dict[bytes, list[str]] = {}
+    for name, values in part.columns.items():
+        alike.setdefault(_instants(values).tobytes(), []).append(name)
+    parts = []
+    for rows, names in alike.items():
+        known = np.frombuffer(rows, dtype=bool)
+        own = {name: part.columns[name][known] for name in names}
+        parts.append(_Part(part.name, part.stamp, part.time[known], own, _label(part, names)))
+    return [_in_order(own_part) for own_part in parts if len(own_part.time)] or [_in_order(part)]
+
+
+def _label(part: _Part, names: Sequence[str]) -> str:
+    """Call columns by the first of them, where they are not all of a file."""
+    return part.name if len(names) == len(part.columns) else f"{names[0]} and {len(names) - 1} more"
+
+
+def _instants(values: Samples) -> SampleMask:
+    """Mark the rows at which a column was recorded: all, unless many lack a value."""
+    known = np.isfinite(values)
+    return known if np.mean(known) < 1.0 - SPARSE else np.ones(len(values), dtype=bool)
+
+
+def _in_order(part: _Part) -> _Part:
+    """Give the part if its stamps increase."""
+    steps = np.diff(part.time)
+    if not np.all(steps > 0.0):
         raise LogError(
             "the stamps of a file that is to be joined do not increase",
-            evidence={
-                "file": path.name,
-                "column": stamp,
-                "not_increasing": int(np.sum(np.diff(time) <= 0.0)),
-            },
+            evidence={"file": part.name, "column": part.stamp, "not_increasing": int(np.sum(~(steps > 0.0)))},
             remedy="join files of one run each, whose stamps increase",
         )
-    return _Part(path.stem, stamp, time, dict(zip(numbers, block[1:], strict=True)))
+    return part
 
 
 def _stamp(table: Table, path: Path) -> str:
-    words = set(CHANNELS[TIME].words)
-    found = [name for name in table.names if name_words(name) & words and channel_of(name, ()) is None]
+    found = clocks(table.names)
     if not found:
         raise LogError(
             "a file that is to be joined has no clock",

@@ -24,6 +24,7 @@ from .formats.combine import combine_stamps, split_lists
 from .formats.content import BAG, DELIMITED, MATLAB5, MATLAB7, MCAP, NPZ, PARQUET, SQLITE_BAG, Form, recognise
 from .formats.delimited import open_delimited
 from .formats.first_rows import first_rows
+from .formats.joint_names import name_joints
 from .formats.long import widen
 from .formats.matlab5 import open_matlab5
 from .formats.matlab7 import open_matlab7
@@ -125,7 +126,7 @@ def open_table(path: Path, media_type: str | None = None) -> tuple[Form, Table]:
         If the file is of no format that holds a log, or damaged.
     """
     form = recognise(path, media_type)
-    return form, widen(combine_stamps(split_lists(OPENERS[form](path))))
+    return form, widen(combine_stamps(split_lists(name_joints(OPENERS[form](path)))))
 
 
 def bind_columns(table: Table, mapping: Mapping[str, object] | None) -> Layout:

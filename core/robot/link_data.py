@@ -26,10 +26,18 @@ SHAPE_FIELD = {"shape": "four numbers x, y, z, radius in m"}
 SYMBOL_FIELDS = {symbol: f"a number in {unit}" for symbol, unit in INERTIAL_UNITS.items()}
 
 
+OTHER_LETTERS = (
+    "do not leave it out: the columns of the table have other letters here. Its a is d, its d is r, and the "
+    "offset of its theta is theta_offset; a standard (distal) table also moves alpha and a down by one row, "
+    "as docs/mdh.md shows"
+)
+
+
 class RobotFields(Fields):
     """Read the fields of an object of a robot description."""
 
     error = RobotError
+    elsewhere = dict.fromkeys(("a", "theta", "a_i", "theta_i"), OTHER_LETTERS)
 
 
 def read_prior(top: Fields, links: int) -> LinkTable | None:

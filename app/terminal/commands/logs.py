@@ -82,11 +82,11 @@ def _end(checks: list[tuple[Path, "LogCheck"]], *, fail_on_defects: bool) -> Non
 
 @COMMANDS.command(epilog=JOIN_EPILOG)
 def join(
-    logs: Annotated[list[Path], typer.Argument(metavar="LOG LOG...", help="Files of one run, with stamps.")],
+    logs: Annotated[list[Path], typer.Argument(metavar="LOG...", help="Files of one run, with stamps.")],
     *,
     output: Annotated[Path, typer.Option("--output", "-o", help="Parquet file to write.")],
 ) -> None:
-    """Join files of one run: positions in one and torques in another, or a file per joint or channel."""
+    """Join files of one run, or the channels of one file that were recorded at instants of their own."""
     from ....core.log.joining import join_logs
     from ..computing import limit_threads
 

@@ -8,10 +8,14 @@ import re
 from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from itertools import chain
 
-from ..channels import JOINT_CHANNELS, REFERENCE_WORDS
+from ..channels import CHANNELS, JOINT_CHANNELS, REFERENCE_WORDS, TIME
 from .named_units import unit_in_name
 
 _CHANNEL_WORDS = frozenset(word for channel in JOINT_CHANNELS for word in channel.words) - {"joint", "joints"}
+_CLOCK_WORDS = frozenset(CHANNELS[TIME].words)
+_COUNTER_WORDS = frozenset(("index", "idx", "count", "counter", "number", "nr", "no", "id"))
+"""Words by which a name tells that it counts rows, whatever else it says."""
+_MEASURED_WORDS = frozenset(("actual", "measured", "act", "meas", "msr", "ist", "feedback", "fbk"))
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 _BRACKETS = re.compile(r"[\[({<][^\[\](){}<>]*[A-Za-z%°][^\[\](){}<>]*[\])}>]")
 _INDEX = re.compile(r"\d+")
@@ -178,6 +182,30 @@ def single_families(names: Sequence[str]) -> dict[str, list[str]]:
     return {} if unclear else {name: [name] for name in named}
 
 
+def clocks(names: Sequence[str]) -> list[str]:
+    """Give the names that tell a clock, and no count of rows.
+
+    Examples
+    --------
+    >>> clocks(["time_index", "stamp [ms]", "q_1"])
+    ['stamp [ms]']
+    """
+    told = [name for name in names if name_words(name) & _CLOCK_WORDS and channel_of(name, ()) is None]
+    return [name for name in told if not name_words(name) & _COUNTER_WORDS]
+
+
+def by_plainness(stem: str) -> tuple[bool, int]:
+    """Sort names of one channel: measured before asked for, and fewer words about it before more.
+
+    Examples
+    --------
+    >>> sorted(["target_q_", "q_d_", "q_"], key=by_plainness)
+    ['q_', 'q_d_', 'target_q_']
+    """
+    words = name_words(stem)
+    return bool(words & REFERENCE_WORDS), len(words - _MEASURED_WORDS)
+
+
 def arm_of(stem: str) -> frozenset[str]:
     """Give the words of a name that are neither a quantity's nor a reference's: those of an arm, if any.
 
@@ -187,7 +215,7 @@ def arm_of(stem: str) -> frozenset[str]:
     frozenset({'left'})
     """
     return frozenset(
-        name_words(stem) - _CHANNEL_WORDS - REFERENCE_WORDS - {"joint", "joints", "actual", "measured"}
+        name_words(stem) - _CHANNEL_WORDS - REFERENCE_WORDS - {"joint", "joints"} - _MEASURED_WORDS
     )
 
 

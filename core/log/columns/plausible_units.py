@@ -38,7 +38,7 @@ def plausible_readings(channel: str, values: Vector) -> list[str]:
     'deg: values reach 170.5 and span 340; a revolute joint moves some hundred degrees'
     """
     finite = values[np.isfinite(values)]
-    if len(finite) == 0:
+    if len(finite) < (2 if channel == TIME else 1):
         return []
     if channel == TIME and np.mean(np.diff(finite) >= 0.0) < GROWING:
         return []

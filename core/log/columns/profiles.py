@@ -67,7 +67,7 @@ PROFILES: dict[str, Profile] = {
         },
     ),
     "ros-jointstate": Profile(
-        time=(Pattern("time", "s"),),
+        time=(Pattern("time", "s"), Pattern("stamp_s", "s")),
         channels={
             "position": (Pattern("position.{}", "rad"),),
             "velocity": (Pattern("velocity.{}", "rad/s"),),
@@ -86,9 +86,9 @@ PROFILES: dict[str, Profile] = {
     "rostopic": Profile(
         time=(Pattern("field.header.stamp", "ns"), Pattern("%time", "ns")),
         channels={
-            "position": (Pattern("field.position{}", "rad"),),
-            "velocity": (Pattern("field.velocity{}", "rad/s"),),
-            "torque": (Pattern("field.effort{}", "N m"),),
+            "position": (Pattern("field.position.{}", "rad"), Pattern("field.position{}", "rad")),
+            "velocity": (Pattern("field.velocity.{}", "rad/s"), Pattern("field.velocity{}", "rad/s")),
+            "torque": (Pattern("field.effort.{}", "N m"), Pattern("field.effort{}", "N m")),
         },
     ),
     "kuka-fri": Profile(

@@ -11,7 +11,7 @@ from itertools import chain
 import numpy as np
 
 from ...errors import LogError
-from ..channels import CHANNELS, EFFORTS, REFERENCE_WORDS, TIME, UNITS
+from ..channels import CHANNELS, EFFORTS, TIME, UNITS
 from ..formats.table import Table
 from ..model import Defect
 from .binding import Binding
@@ -19,8 +19,10 @@ from .blocks import unnamed_channels
 from .families import (
     along_arm,
     arm_of,
+    by_plainness,
     channel_by_unit,
     channel_of,
+    clocks,
     name_words,
     named_families,
     numbered_families,
@@ -185,9 +187,8 @@ def _open_units(profile: str, table: Table, prismatic: Collection[int]) -> dict[
 
 def _clock(channels: Mapping[str, Sequence[str]], table: Table) -> dict[str, object]:
     """Give the clock by its name, else the first column that only grows, else leave the rate open."""
-    words = set(CHANNELS[TIME].words)
-    called = (name for name in table.names if name_words(name) & words and channel_of(name, ()) is None)
-    stamps = next(iter(channels.get(TIME, ())), None) or next(called, None) or _growing(channels, table)
+    called = (*channels.get(TIME, ()), *clocks(table.names))
+    stamps = next(iter(called), None) or _growing(channels, table)
     return (
         {RATE: UNKNOWN} if stamps is None else {TIME: {"column": stamps, "unit": _unit(TIME, table, stamps)}}
     )
@@ -229,9 +230,9 @@ def _in_plausible_unit(channel: Binding, joint: int | None, table: Table) -> dic
 
 
 def _channels(families: Mapping[str, list[str]]) -> dict[str, list[str]]:
-    """Choose columns for every channel; measured ones first, then references that are one per joint."""
+    """Choose columns for every channel; measured and plain ones first, references where one per joint."""
     found: dict[str, list[str]] = {}
-    for stem in sorted(families, key=lambda name: bool(name_words(name) & REFERENCE_WORDS)):
+    for stem in sorted(families, key=by_plainness):
         channel, columns = channel_of(stem, found), families[stem]
         if channel is None or channel in found:
             continue
@@ -268,11 +269,12 @@ def _is_ordered(profile: str, names: Sequence[str]) -> bool:
 
 
 def _own_clock(profile: str, table: Table) -> dict[str, object]:
-    """Give the clock where the profile leaves its unit open, or its steps are of another size."""
+    """Give the clock where the file calls it otherwise, the profile leaves its unit open, or sizes differ."""
     filled = fill_in({PROFILE: profile}, table.names)
-    clock = filled.get(TIME) if isinstance(filled, dict) else None
+    channels = filled if isinstance(filled, dict) else {}
+    clock = channels.get(TIME)
     if not isinstance(clock, dict):
-        return {}
+        return _clock({name: request["columns"] for name, request in channels.items()}, table)
     unit = _unit(TIME, table, clock["column"])
     return {} if unit in (UNKNOWN, clock.get("unit")) else {TIME: clock | {"unit": unit}}
 

@@ -90,7 +90,8 @@ class Leaps:
             raise LogError(
                 "a position jumps by a whole turn from one sample to the next: the angle is wrapped",
                 evidence=self._evidence(self._wrapped),
-                remedy="unwrap the angles before uploading (numpy.unwrap), so that they follow the joint",
+                remedy="unwrap the angles before uploading, so that they follow the joint: "
+                "numpy.unwrap(angles, axis=0, period=360) for rows of degrees, period=2*numpy.pi for rad",
             )
         if any(self._moved.values()):
             raise LogError(

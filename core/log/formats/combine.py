@@ -16,8 +16,8 @@ from .table import MemoryTable, Table, check_columns, check_values
 NANOSECONDS = 1e9
 STAMP = "stamp_s"
 """Name of the clock that is made of two columns."""
-_SECONDS = re.compile(r"(.*?)(secs?|seconds)$", re.IGNORECASE)
-_NANOSECONDS = re.compile(r"(.*?)(nanosecs?|nsecs?|nanoseconds)$", re.IGNORECASE)
+_SECONDS = re.compile(r"(.*?)(secs?|seconds|sek)$", re.IGNORECASE)
+_NANOSECONDS = re.compile(r"(.*?)(nanosecs?|nsecs?|nanoseconds|nanosek)$", re.IGNORECASE)
 _LIST = re.compile(r"\s*[\[(]([^\[\]()]*)[\])]\s*")
 _BETWEEN = re.compile(r"[,;\s]+")
 

@@ -20,20 +20,13 @@ from ...arrays import Series
 from ...errors import LogError
 from ..defects.stretch import count_text
 from .arrow import numbers, words_for_nothing
+from .copies import check_copies, copy_notes, told_apart
 from .odd_rows import OddRows, find_odd_rows
 from .stamps import Clock
 from .table import BY_NUMBER, MAX_COLUMNS, check_columns, check_rows, check_values, not_numeric, reading
 from .text_bytes import UTF_8, UTF_16, WESTERN, check_text, encoding_of, open_utf8, opening_lines
-from .text_header import (
-    BLANKS,
-    DELIMITERS,
-    STAMP,
-    TextHeader,
-    find_header,
-    is_comment,
-    is_number,
-    split_cells,
-)
+from .text_cells import BLANKS, DELIMITERS, TextHeader, is_comment, is_number, split_cells
+from .text_header import STAMP, find_header
 from .tidy_lines import TidyLines
 
 FORM = "CSV"
@@ -149,10 +142,9 @@ def open_delimited(path: Path) -> DelimitedTable:
     lines = opening_lines(path, encoding)
     found = find_header(lines) or _first_line(lines)
     check_columns([f"column_{index}" for index in range(found.width)])
-    names = _names(found)
+    names, copies = told_apart(_names(found))
     check_columns(names)
-    if len(names) == 1:
-        _refuse_blanks(found, lines)
+    _check_separated(found, lines)
     row = found.first_row
     header = lines[found.header_at].strip().encode() if found.cells else b""
     repeated = check_text(path, header, encoding)
@@ -160,7 +152,7 @@ def open_delimited(path: Path) -> DelimitedTable:
     cells = dict(zip(names, split_cells(row, found.delimiter), strict=False))
     stamps = tuple(name for name, cell in cells.items() if STAMP.fullmatch(cell))
     odd = find_odd_rows(path, encoding, found, header)
-    return DelimitedTable(
+    table = DelimitedTable(
         path=path,
         names=names,
         delimiter=found.delimiter,
@@ -169,20 +161,36 @@ def open_delimited(path: Path) -> DelimitedTable:
         stamps=stamps,
         texts=_texts(cells, stamps),
         units=_units(names, found),
-        notes=(*ENCODING_NOTES[encoding], *_notes(found, stamps, repeated), *odd.notes()),
+        notes=(
+            *ENCODING_NOTES[encoding],
+            *_notes(found, stamps, repeated),
+            *copy_notes(copies),
+            *odd.notes(),
+        ),
         odd=odd,
         repeated=header if repeated else b"",
         encoding=encoding,
     )
+    check_copies(table, copies)
+    return table
 
 
-def _refuse_blanks(found: TextHeader, lines: Sequence[str]) -> None:
+def _check_separated(found: TextHeader, lines: Sequence[str]) -> None:
+    """Refuse one column: no separator is in the header, or another number of blanks than in the rows."""
+    if found.width > 1:
+        return
+    seen = {"header": (found.cells or ("",))[0][:120], "first_row": found.first_row[:120]}
     if _is_spaced(lines):
         raise LogError(
             "the columns are separated by blanks, and their number differs from that of the names",
-            evidence={"header": found.cells[0][:120]},
+            evidence=seen,
             remedy="write names without blanks, or separate the columns by commas, semicolons or tabs",
         )
+    raise LogError(
+        "the text has one column only: no numbers between commas, semicolons, tabs or blanks follow its name",
+        evidence=seen,
+        remedy="separate names and numbers by commas, semicolons or tabs, one row per sample",
+    )
 
 
 def _texts(cells: Mapping[str, str], stamps: Collection[str]) -> tuple[str, ...]:
@@ -268,4 +276,8 @@ def _advice(found: str) -> str:
     """Describe the remedy for a cell that is no number."""
     if re.fullmatch(r"[-+]?\d+,\d*(e[-+]?\d+)?", found, re.IGNORECASE):
         return "write decimal points in every row, or decimal commas in every row between semicolons or tabs"
+    if re.fullmatch(r"[-+]?\d{1,3}([.,' ]\d{3})+([.,]\d*)?", found):
+        return "write numbers without a sign between thousands"
+    if re.search(r"\d:\d\d|\d[./-]\d\d?[./-]\d", found):
+        return "write dates and times of day as 2024-03-01 10:00:00.004, or seconds as plain numbers"
     return "store plain numbers, or map another column; a line of units below the header starts with #"

@@ -4,7 +4,7 @@ The column that names the joint is one of text, or of numbers under a name that 
 joint. What is left of a row are the joint's values, which become columns `value.joint`.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,6 +28,8 @@ KEY_WORDS = frozenset(
     )
 )
 """Names of the column that says which joint a row is of, in small letters."""
+RUN_WORDS = frozenset(("name", "id"))
+"""Of these the ones that may as well call a run."""
 VALUE_WORDS = frozenset(("value", "values", "val", "data"))
 """Names of a single column whose meaning is the key's."""
 FEWEST_TURNS = 0.9
@@ -106,14 +108,26 @@ def _long(table: Table) -> _Long | None:
         return None
     stamps = np.hstack(list(table.batches([stamp])))[0]
     named = np.array(words)
-    if not _are_together(stamps, len(keys)) and not _take_turns(table, named, len(keys), values):
+    rows = [np.flatnonzero(named == word) for word in keys]
+    is_long = _are_together(stamps, len(keys)) or _follow_each_other(key, stamps, rows)
+    if not is_long and not _take_turns(table, named, len(keys), values):
         return None  # a row per instant whose key says something else
-    return _Long(key, keys, [np.flatnonzero(named == word) for word in keys], stamp, values)
+    return _Long(key, keys, rows, stamp, values)
 
 
 def _are_together(stamps: np.ndarray, keys: int) -> bool:
     """Tell whether the rows of an instant are one of each joint's."""
     return bool(np.mean(np.diff(stamps) == 0.0) >= FEWEST_REPEATS * (1.0 - 1.0 / keys))
+
+
+def _follow_each_other(key: str, stamps: np.ndarray, rows: Sequence[np.ndarray]) -> bool:
+    """Tell whether all rows of a joint stand before those of the next, at the same instants.
+
+    So do the rows of two runs, whose key is a name or a number but tells no joint.
+    """
+    if key.lower() in RUN_WORDS or any(len(own) != own[-1] - own[0] + 1 for own in rows):
+        return False
+    return all(np.array_equal(stamps[own], stamps[rows[0]]) for own in rows)
 
 
 def _take_turns(table: Table, named: np.ndarray, keys: int, values: tuple[str, ...]) -> bool:

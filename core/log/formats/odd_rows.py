@@ -19,7 +19,7 @@ from ...errors import LogError
 from ..defects.stretch import count_text
 from .arrow import words_for_nothing
 from .text_bytes import open_utf8
-from .text_header import BLANKS, TextHeader, is_number, split_cells
+from .text_cells import BLANKS, TextHeader, is_number, split_cells
 
 BLOCK_BYTES = 1 << 20
 MOST_ODD = 0.01
@@ -253,6 +253,12 @@ def _cells(line: bytes, table: TextHeader) -> list[str]:
 def _too_many(seen: _Rows, table: TextHeader, *, whole: bool) -> LogError:
     """Say how many rows are of another length, of the whole table or of the rows that were counted."""
     cells, text = _cells(seen.first, table), seen.first.decode("utf-8", "replace").strip()
+    if text.count('"') % 2:
+        return LogError(
+            f"the quotation in line {seen.odd[0]} goes on in the next line",
+            evidence={"text": text[:120], "lines": seen.odd[:SHOWN_LINES]},
+            remedy="write lists on one line each, as numpy's tolist gives them, or a column for every number",
+        )
     commas = len(cells) > table.width and table.delimiter == "," and "." not in text
     hint = ": the numbers seem to have decimal commas" if commas else ""
     return LogError(

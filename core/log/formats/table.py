@@ -210,7 +210,8 @@ def duplicate_columns(names: Sequence[str]) -> LogError:
     return LogError(
         "two columns carry the same name, so that neither can be meant",
         evidence={"duplicates": list(names)[:20]},
-        remedy="give every column a name of its own",
+        remedy="give every column a name of its own; channels with clocks of their own go to files of their "
+        "own: veritorque logs join A B -o run.parquet",
     )
 
 

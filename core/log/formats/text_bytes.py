@@ -11,7 +11,7 @@ from itertools import islice
 from pathlib import Path
 
 from ...errors import LogError
-from .text_header import DELIMITERS, is_comment
+from .text_cells import DELIMITERS, is_comment
 
 HEAD_BYTES = 1 << 20
 MOST_HEAD_BYTES = 64 << 20

@@ -5,45 +5,23 @@ cells, or no header at all. The rows of numbers say which line is which: a heade
 rows that follow it, and no number among them.
 """
 
-import csv
 import re
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
 from itertools import islice
 
 from ..columns.named_units import UNIT_WORDS
+from .text_cells import BLANKS, COMMENT, DELIMITERS, TextHeader, is_comment, is_number, split_cells
+from .text_labels import find_labelled
 
-DELIMITERS = ",;\t"
-BLANKS = " "
-"""Stands for any number of blanks and tabs."""
 ROWS, WIDE = 20, 0.8
 """More than this share of so many rows below a header has to be as wide as the header."""
 SEARCHED_LINES = 200
 """The header has to come within so many lines that are no comments."""
 STAMP = re.compile(
-    r"(?P<date>\d{4}-\d{2}-\d{2}[T ])?\d{2}:\d{2}:\d{2}([.,]\d{1,9})?(?P<zone>Z|[+-]\d{2}:?\d{2})?"
+    r"((?P<date>\d{4}-\d{2}-\d{2}[T ])|\d{1,4}([./-])\d{1,2}\3\d{1,4}[ ,T]+|\d+ days? )?"
+    r"\d{1,2}:\d{2}:\d{2}([.,]\d{1,9}|:\d{3})?(?P<zone>Z|[+-]\d{2}:?\d{2})?"
 )
-"""A date with a time of day, or a time of day alone (ISO 8601)."""
-
-
-@dataclass(frozen=True)
-class TextHeader:
-    """Describe how a text table is to be read."""
-
-    cells: tuple[str, ...]
-    """Names of the columns as they stand; empty where there is no header."""
-    width: int
-    """Number of cells per row."""
-    delimiter: str
-    first_row: str
-    skip: int
-    """Physical lines before the first row of data."""
-    header_at: int = 0
-    """Physical line of the header, where there is one."""
-    titles: int = 0
-    """Lines above the header that are neither comments nor rows."""
-    units: Mapping[str, str] = field(default_factory=dict)
-    """What a row below the header says of each column's unit."""
+"""A time of day, alone, after a date (ISO 8601 or as people write it), or after a count of days."""
 
 
 def find_header(lines: Sequence[str]) -> TextHeader | None:
@@ -59,37 +37,13 @@ def find_header(lines: Sequence[str]) -> TextHeader | None:
         islice((index for index, line in enumerate(lines) if not is_comment(line)), SEARCHED_LINES)
     )
     for place, index in enumerate(content):
+        if found := find_labelled(lines, content, place):
+            return found
         if (found := _commented(lines, index)) or (found := _header_at(lines, content, place)):
             return found
         if found := _without_header(lines, content, place):
             return found
     return None
-
-
-def is_comment(line: str) -> bool:
-    """Tell whether a line is blank or a comment."""
-    return not line.strip() or line.lstrip().startswith("#")
-
-
-def split_cells(line: str, delimiter: str) -> list[str]:
-    """Cut a line into cells, without quotes."""
-    if delimiter == BLANKS:
-        return [cell.strip('"') for cell in line.split()]
-    if '"' not in line:
-        return [cell.strip() for cell in line.split(delimiter)]
-    try:
-        return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter))]
-    except csv.Error:  # a cell longer than any name or number
-        return [cell.strip() for cell in line.split(delimiter)]
-
-
-def is_number(cell: str) -> bool:
-    """Tell whether a cell is a number, with a decimal point or comma."""
-    try:
-        float(cell.replace(",", "."))
-    except ValueError:
-        return False
-    return True
 
 
 def _header_at(lines: Sequence[str], content: Sequence[int], place: int) -> TextHeader | None:
@@ -100,19 +54,30 @@ def _header_at(lines: Sequence[str], content: Sequence[int], place: int) -> Text
         if len(names) < 2 or any(map(is_number, names)) or not any(names):
             continue
         rows = _rows(lines, content[place + 1 : place + 1 + ROWS], delimiter)
+        names += _names_behind(rows, len(names))
         if not _are_wide(rows, len(names)):
             continue
         if _is_row(rows[0], len(names)):
-            return _found(lines, content, place, delimiter, rows_at=1)
+            return _found(lines, content, place, delimiter, names, rows_at=1)
         if len(rows) > 1 and _are_units(rows[0], len(names)) and _is_row(rows[1], len(names)):
-            return _found(lines, content, place, delimiter, rows_at=2)
+            return _found(lines, content, place, delimiter, names, rows_at=2)
     return None
 
 
+def _names_behind(rows: Sequence[Sequence[str]], width: int) -> list[str]:
+    """Give an empty name where all rows end with a separator and the header does not."""
+    return [""] if rows and all(len(row) == width + 1 and not row[-1] for row in rows) else []
+
+
 def _found(
-    lines: Sequence[str], content: Sequence[int], place: int, delimiter: str, *, rows_at: int
+    lines: Sequence[str],
+    content: Sequence[int],
+    place: int,
+    delimiter: str,
+    names: Sequence[str],
+    *,
+    rows_at: int,
 ) -> TextHeader:
-    names = split_cells(lines[content[place]], delimiter)
     units = split_cells(lines[content[place + 1]], delimiter) if rows_at == 2 else []
     first = content[place + rows_at]
     return TextHeader(
@@ -129,7 +94,8 @@ def _found(
 
 def _commented(lines: Sequence[str], index: int) -> TextHeader | None:
     """Take the comment right above numbers for the header, as numpy.savetxt writes it."""
-    above = next(filter(str.strip, reversed(lines[:index])), "").lstrip("# ")
+    above = next(filter(str.strip, reversed(lines[:index])), "")
+    above = above[mark.end() :].strip() if (mark := COMMENT.match(above)) else above
     for delimiter in _delimiters(lines[index]):
         row, names = split_cells(lines[index], delimiter), split_cells(above, delimiter)
         if len(row) == len(names) > 1 and all(map(is_number, row)) and not any(map(is_number, names)):
@@ -139,16 +105,34 @@ def _commented(lines: Sequence[str], index: int) -> TextHeader | None:
 
 
 def _without_header(lines: Sequence[str], content: Sequence[int], place: int) -> TextHeader | None:
-    """Take the line for the first row of a table without header if the next has as many numbers."""
+    """Take the line for the first row of a table without header if the next rows are like it."""
     index = content[place]
     for delimiter in _delimiters(lines[index]):
-        if any(len(row) > 1 for row in _rows(lines, content[:place], delimiter)):
+        if any(map(_may_be_names, _rows(lines, content[:place], delimiter))):
             continue  # what stands above may be a header that does not fit
         cells = split_cells(lines[index], delimiter)
-        next_rows = _rows(lines, content[place + 1 : place + 2], delimiter)
-        if _are_numbers(cells) and all(len(row) == len(cells) for row in next_rows):
+        if _are_alike(cells, _rows(lines, content[place + 1 : place + 1 + ROWS], delimiter)):
             return TextHeader((), len(cells), delimiter, lines[index], index, titles=place)
     return None
+
+
+def _may_be_names(cells: Sequence[str]) -> bool:
+    """Tell whether a line holds several cells, and not only the numbers of half a row."""
+    return len(cells) > 1 and not all(map(is_number, cells))
+
+
+def _are_alike(cells: Sequence[str], rows: Sequence[Sequence[str]]) -> bool:
+    """Tell whether cells are numbers, as many as in the next row; or the rows repeat their words as well."""
+    if _are_numbers(cells):
+        return all(len(row) == len(cells) for row in rows[:1])
+    words = _words(cells)
+    numbers = len(list(filter(None, cells))) - len(words)
+    return numbers > 1 and bool(rows) and all(len(row) == len(cells) and _words(row) == words for row in rows)
+
+
+def _words(cells: Sequence[str]) -> dict[int, str]:
+    """Give the cells that hold something else than a number, by their places."""
+    return {place: cell for place, cell in enumerate(cells) if cell and not is_number(cell)}
 
 
 def _rows(lines: Sequence[str], at: Sequence[int], delimiter: str) -> list[list[str]]:

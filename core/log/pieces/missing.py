@@ -83,8 +83,8 @@ def _remedy(channel: str, layout: Layout) -> str:
     if channel != TIME and (CHANNELS[channel].need == "reference" or _may_lack(channel, names)):
         return f'leave the channel out with "{channel}": null in the mapping'
     slower = (
-        "where its channel was recorded at a lower rate, write each channel to a file of its own, without "
-        "the empty rows, and join the files: veritorque logs join"
+        "where channels were recorded at instants of their own, bring them to those of the positions: "
+        "veritorque logs join THIS -o run.parquet"
     )
     if channel not in EFFORTS:
         return slower
@@ -135,8 +135,8 @@ def scarce_defect(found: Survey, layout: Layout, channel: str) -> Defect:
     shown = ", ".join(map(repr, bound.columns[:SHOWN_COLUMNS]))
     statement = (
         f"{count} of {found.samples} rows ({100.0 * count / found.samples:.3g} %) lack a {channel}: the "
-        f"channel is left out and {shown} ignored. Where it was recorded at a lower rate, fill "
-        "in the values between."
+        f"channel is left out and {shown} ignored. Where it was recorded at a lower rate: "
+        "veritorque logs join THIS -o run.parquet."
     )
     return Defect("missing_values", channel, None, count, (), statement)
 

@@ -80,3 +80,31 @@ def test_files_that_do_not_belong_together_are_refused(fault, tmp_path):
     paths = [write_csv(tmp_path / "a.csv", part("q_1")), write_csv(tmp_path / "b.csv", other)]
     with pytest.raises(LogError):
         join_logs(paths)
+
+
+def test_channels_of_one_file_at_instants_of_their_own_are_brought_to_the_positions(tmp_path):
+    at = TIME[::5] + 0.0015
+    time = np.sort(np.concatenate([TIME, at]))
+    sparse = {"time": time}
+    for name, own in (("q_1", TIME), ("q_2", TIME), ("tau_1", at), ("tau_2", at)):
+        sparse[name] = np.full(len(time), np.nan)
+        sparse[name][np.searchsorted(time, own)] = np.interp(own, TIME, COLUMNS[name])
+    path = write_csv(tmp_path / "plot.csv", sparse)
+    with pytest.raises(LogError, match="lack a value") as refusal:
+        read_log(path)
+    assert "veritorque logs join THIS -o run.parquet" in refusal.value.remedy
+    joined = join_logs([path])
+    joined.save(tmp_path / "run.parquet")
+    rows = whole_rows(read_log(tmp_path / "run.parquet"))
+    inside = slice(np.searchsorted(TIME, at[0]), np.searchsorted(TIME, at[-1], side="right"))
+    np.testing.assert_allclose(rows.position[:, 1], COLUMNS["q_2"][inside], atol=1e-9)
+    expected = np.interp(TIME[inside], at, np.interp(at, TIME, COLUMNS["tau_1"]))
+    np.testing.assert_allclose(rows.torque[:, 0], expected, atol=1e-9)
+    assert joined.notes[0] == "tau_1 and 1 more: interpolated at the stamps of q_1 and 1 more"
+
+
+def test_a_few_missing_values_are_not_filled_in(tmp_path):
+    torque = COLUMNS["tau_1"].copy()
+    torque[300:310] = np.nan
+    path = write_csv(tmp_path / "run.csv", part("q_1", tau_1=torque))
+    np.testing.assert_array_equal(join_logs([path]).columns["tau_1"], torque)

@@ -3,6 +3,7 @@ import pytest
 
 from tests.core.log.writers import WRITERS, swing, write_csv, write_parquet
 from veritorque.core.errors import LogError
+from veritorque.core.log.model import whole_rows
 from veritorque.core.log.reader import log_from_arrays, read_log
 
 
@@ -225,6 +226,25 @@ def test_angles_wrapped_at_half_a_turn_are_refused_with_the_joint_and_the_jumps(
     assert error.evidence["joint_2"]["jumps"] == jumps
     assert set(error.evidence) == {"joint_2"}
     assert "unwrap" in error.remedy
+
+
+@pytest.mark.parametrize(("unit", "turn"), [("deg", 360.0), ("rad", 2.0 * np.pi)])
+def test_what_is_unwrapped_as_the_refusal_says_is_read(unit, turn, tmp_path):
+    mapping = {"position": {"columns": ["q_1", "q_2", "q_3"], "unit": unit}}
+    columns = spoiled(lambda columns: None)
+    angles = np.column_stack([4.0 * columns[f"q_{joint}"] for joint in (1, 2, 3)]) * turn / (2.0 * np.pi)
+    path = tmp_path / "log.csv"
+    columns |= {f"q_{joint + 1}": angles[:, joint] % turn for joint in range(3)}
+    with pytest.raises(LogError, match="the angle is wrapped") as refused:
+        read_log(write_csv(path, columns), mapping=mapping)
+    calls = {"deg": "period=360", "rad": "period=2*numpy.pi"}
+    assert "axis=0" in refused.value.remedy
+    assert calls[unit] in refused.value.remedy
+    unwrapped = np.unwrap(angles % turn, axis=0, period=turn)
+    columns |= {f"q_{joint + 1}": unwrapped[:, joint] for joint in range(3)}
+    rows = whole_rows(read_log(write_csv(path, columns), mapping=mapping))
+    moved = np.diff(angles, axis=0) * 2.0 * np.pi / turn
+    np.testing.assert_allclose(np.diff(rows.position, axis=0), moved, atol=1e-9)
 
 
 def leapt(by, rows=slice(1000, None)):

@@ -276,3 +276,11 @@ def test_a_rotation_with_all_its_digits_is_read_to_the_bit():
 
 def test_a_matrix_computed_from_five_digits_of_a_right_angle_is_that_right_angle():
     assert np.array_equal(_turned(rotation_rpy(1.5708, 0.0, -1.5708)), rotation_rpy(QUARTER, 0.0, -QUARTER))
+
+
+@pytest.mark.parametrize("letters", [{"a": 0.4, "theta": 0.0}, {"a": 0.4}, {"theta": 0.0}])
+def test_nobody_is_told_to_leave_out_a_length_or_an_angle_of_another_table(letters):
+    with pytest.raises(RobotError, match="field that does not exist") as refusal:
+        robot_from_description(_changed(**letters))
+    assert "Its a is d, its d is r" in refusal.value.remedy
+    assert "docs/mdh.md" in refusal.value.remedy

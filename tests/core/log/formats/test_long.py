@@ -105,3 +105,34 @@ def test_a_counter_that_starts_again_does_not_make_a_table_long(tmp_path):
     path.write_text("\n".join(["time,id,q,tau", *lines]))
     log = read_log(path)
     assert (log.joints, log.samples) == (1, len(COLUMNS["time"]))
+
+
+@pytest.mark.parametrize("key", ["joint", "Axis", "signal"])
+def test_all_rows_of_a_joint_before_those_of_the_next_become_columns_too(tmp_path, key):
+    columns = swing(joints=3)
+    path = tmp_path / "log.csv"
+    with path.open("w") as stream:
+        stream.write(f"timestamp,{key},position,effort\n")
+        for joint in (1, 2, 3):
+            own = zip(columns["time"], columns[f"q_{joint}"], columns[f"tau_{joint}"], strict=True)
+            stream.writelines(f"{t:.9f},joint_{joint},{q:.9f},{tau:.9f}\n" for t, q, tau in own)
+    with pytest.raises(LogError) as refusal:
+        read_log(path)
+    mapping = refusal.value.evidence["suggested_mappings"][0]
+    rows = whole_rows(read_log(path, mapping=mapping))
+    np.testing.assert_allclose(rows.time, columns["time"], atol=1e-9)
+    np.testing.assert_allclose(rows.position[:, 2], columns["q_3"], atol=1e-9)
+    np.testing.assert_allclose(rows.torque[:, 1], columns["tau_2"], atol=1e-9)
+
+
+def test_two_runs_of_the_same_instants_are_no_two_joints(tmp_path):
+    columns = swing(joints=1)
+    path = tmp_path / "log.csv"
+    with path.open("w") as stream:
+        stream.write("time,id,q_1,tau_1\n")
+        for run in (1, 2):
+            own = zip(columns["time"], columns["q_1"], columns["tau_1"], strict=True)
+            stream.writelines(f"{t:.9f},{run},{q:.9f},{tau:.9f}\n" for t, q, tau in own)
+    log = read_log(path)
+    assert log.joints == 1
+    assert [defect.kind for defect in log.defects][:1] == ["time_restarts"]
