@@ -266,7 +266,7 @@ class ObservedProblem:
     def check_excitation(self) -> None:
         """Refuse a motion in which no inertia takes any torque: every joint keeps its speed.
 
-        Slides alone never show a moment of inertia, as a body has one that is attached to them: theirs is mass.
+        A robot of slides alone shows no moment of inertia, though a body that it takes up has one.
 
         Raises
         ------

@@ -87,7 +87,8 @@ def test_a_body_that_a_slide_takes_up_is_named_though_no_moment_of_inertia_shows
     position = 0.1 * np.sin(2.2 * time) + 0.05 * np.sin(5.0 * time + 1.0) + 0.02 * np.sin(12.0 * time + 2.0)
     velocity = np.gradient(position, time)
     torque = (20.0 + 5.0 * (time > 12.0)) * np.gradient(velocity, time)
-    torque += 30.0 * velocity + 4.0 * np.sign(velocity) + 0.3 * np.random.default_rng(1).normal(size=len(time))
+    torque += 30.0 * velocity + 4.0 * np.sign(velocity)
+    torque += 0.3 * np.random.default_rng(1).normal(size=len(time))
     log = log_from_arrays("taken up", time, position[:, None], torque[:, None])
     found = diagnose(IdentifyRequest(robot, (log,)))["diagnosis"]["findings"]
     assert "payload_change" in {finding["cause"] for finding in found}

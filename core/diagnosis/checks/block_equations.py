@@ -54,7 +54,7 @@ class BlockSolution:
         """
         blocks = list(self.blocks)
         others = (BlockSolution(blocks[:at] + blocks[at + 1 :], self.known) for at in range(len(blocks)))
-        return np.array([other.change for other in others]) - self.change
+        return np.asarray(np.array([other.change for other in others]) - self.change)
 
     def deviations(self, weights: Matrix) -> Vector:
         """Give the deviations of weighted sums of the values, along columns, by the scatter of blocks."""

@@ -2,11 +2,11 @@
 
 A likelihood ratio is as good as the noise model. On a measured robot the larger part of a residual is what no
 model explains, and it differs from one part of the motion to the next. How much the coefficients change where
-a block is left out gives their covariance, whatever the residual is. What one block alone shows is then known
-to nobody: a jump of the positions, or a brake that drags at first, fits its own block exactly and leaves no
-residual there. Sources: Tukey, Ann. Math. Stat. 29, 1958, and Bell & McCaffrey, Survey Methodology 28(2), 2002,
-on the jackknife between clusters; Cameron & Miller, J. Human Resources 50(2), 2015, on Student's and Fisher's
-laws with one degree of freedom less than there are blocks.
+a block is left out gives their covariance, whatever the residual is. What one block alone shows then scatters
+as much as it is: a jump of the positions, or a brake that drags at first, is fitted exactly and leaves no
+residual there. Sources: Tukey, Ann. Math. Stat. 29, 1958, and Bell & McCaffrey, Survey Methodology 28(2),
+2002, on the jackknife between clusters; Cameron & Miller, J. Human Resources 50(2), 2015, on Student's and
+Fisher's laws with one degree of freedom less than there are blocks.
 """
 
 import numpy as np
