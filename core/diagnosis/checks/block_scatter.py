@@ -20,11 +20,7 @@ from .block_equations import BlockSolution
 
 
 def block_log_p(
-    fitter: HypothesisFitter,
-    chosen: Hypothesis,
-    index: int,
-    statistic: float,
-    equations: BlockSolution,
+    fitter: HypothesisFitter, chosen: Hypothesis, index: int, statistic: float, equations: BlockSolution
 ) -> float:
     """Give the log of a member's p-value by its scatter between blocks, corrected for all that was scanned.
 

@@ -158,9 +158,7 @@ def _evidence(own: Comparison, log_p: float, trials: float) -> tuple[Evidence, .
     )
 
 
-def _between_blocks(
-    found: SearchState, own: Comparison, logs: BetweenLogs
-) -> tuple[Evidence, ...]:
+def _between_blocks(found: SearchState, own: Comparison, logs: BetweenLogs) -> tuple[Evidence, ...]:
     """Give its p-value by the scatter between blocks; not of a transient cause, which is in few of them."""
     if own.member.cause.traits.transient:
         return ()
