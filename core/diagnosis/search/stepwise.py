@@ -79,9 +79,9 @@ def continue_search(
 
 
 def _counted(members: Sequence[Candidate], joints: int) -> int:
-    """Count members; a cause that acts on half of the joints or more is one property of the robot."""
+    """Count members; a cause that acts on most joints is one property of the robot."""
     number = Counter(member.cause.id for member in members)
-    return sum(1 if 2 * own >= joints else own for own in number.values())
+    return sum(1 if 2 * own > joints else own for own in number.values())
 
 
 def _start(fitter: HypothesisFitter, start: Sequence[Candidate]) -> SearchState:

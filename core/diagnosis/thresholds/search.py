@@ -110,7 +110,7 @@ class Search:
     """
 
     causes: int = 5
-    """Causes that are named at most. One that acts on half of the joints or more counts once."""
+    """Causes that are named at most. One that acts on most joints counts once."""
     tried: int = 16
     """Candidates of a scan that are fitted."""
     fitted_whole: int = 4
