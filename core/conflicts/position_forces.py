@@ -63,17 +63,19 @@ class PositionForces(Term):
     def _shapes(self) -> list[tuple[int, int, int]]:
         """List joint and joint whose position it follows, both from 0, and half waves; none for the line."""
         joints = len(self.span)
-        if not self.waves:
-            return [
-                (joint, joint, 0) for joint in range(joints) if self.span[joint] > POSITION_FORCES.least_span
-            ]
         return [
             (joint, other, order)
             for joint in range(joints)
             for other in range(max(joint - 1, 0), min(joint + 2, joints))
-            for order in range(1 + (POSITION_FORCES.own if other == joint else POSITION_FORCES.neighbour))
+            for order in range(self._orders(joint, other))
             if self.span[other] > POSITION_FORCES.least_span
         ]
+
+    def _orders(self, joint: int, other: int) -> int:
+        """Count the shapes of a joint's force over another's position, or its own."""
+        if not self.waves:
+            return int(joint == other)
+        return 1 + (POSITION_FORCES.own if other == joint else POSITION_FORCES.neighbour)
 
 
 def beside_forces(trials: Trials, setup: Setup, *, waves: bool = True) -> Trials:

@@ -1,6 +1,6 @@
 """State what is to be fitted to which motions, and hold its equations as estimators take them."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -17,6 +17,7 @@ from ..regressor.observe import Observation, observe, torque_scales
 from ..regressor.prewhitened import PrewhitenedRows, predictors
 from ..regressor.rows import InstrumentedRows, RowSource
 from ..regressor.whitened import WhitenedRows
+from ..robot.model import Parameter, RobotModel
 from ..signals.condition import Motion
 from ..signals.filtered_noise import acceleration_variance
 from .compensation import Compensated
@@ -266,8 +267,6 @@ class ObservedProblem:
     def check_excitation(self) -> None:
         """Refuse a motion in which no inertia takes any torque: every joint keeps its speed.
 
-        A robot of slides alone shows no moment of inertia, though a body that it takes up has one.
-
         Raises
         ------
         ExcitationError
@@ -277,11 +276,16 @@ class ObservedProblem:
         parameters = [plan.model.parameters[column] for column in plan.columns]
         norms = np.linalg.norm(ordinary(self.factors, self.columns_of, self.size).triangle, axis=0)
         idle = [parameter.name for parameter, norm in zip(parameters, norms, strict=True) if norm == 0.0]
-        turns = any(link.kind == "revolute" for link in plan.model.robot.links)
-        inertias = {parameter.name for parameter in parameters if turns and parameter.unit == "kg m2"}
+        inertias = _moments_of_inertia(parameters, plan.model.robot)
         if inertias and inertias <= set(idle):
             raise ExcitationError(
                 "no joint changes its speed, so that no inertia shows in the torque",
                 evidence={"parameters_not_excited": idle},
                 remedy="record a motion in which every joint speeds up, slows down and turns round",
             )
+
+
+def _moments_of_inertia(parameters: Sequence[Parameter], robot: RobotModel) -> set[str]:
+    """Name those that motion may show: none where all joints slide, though their bodies have some."""
+    turns = any(link.kind == "revolute" for link in robot.links)
+    return {parameter.name for parameter in parameters if turns and parameter.unit == "kg m2"}
