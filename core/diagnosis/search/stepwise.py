@@ -111,7 +111,7 @@ def _exits_and_swaps(state: SearchState) -> Iterator[SearchState]:
     """
     yield state
     earlier = [state.keys]
-    for _ in range(2 * len(state.chosen.members)):
+    for _ in range(2 * max(SEARCH.causes, len(state.chosen.members))):
         changed = _exit_or_swap(state)
         if changed is None:
             return
