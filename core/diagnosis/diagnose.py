@@ -40,7 +40,7 @@ from .search.hypothesis import Candidate
 from .search.likelihood_ratio import likelihood_ratio, log_p
 from .search.motion_band import drop_what_motion_does_not_show
 from .search.residuals import residual, stiction_share
-from .search.restarts import restart_at_operating_point, restart_from_common_cause
+from .search.restarts import explains_more, restart_at_operating_point, restart_from_common_cause
 from .search.state import SearchState
 from .search.stepwise import confirm, continue_search, search_stepwise
 from .thresholds.checks import VERDICT
@@ -64,7 +64,7 @@ def diagnose(problem: DiagnosisProblem, progress: Progress | None = None) -> Dia
     found = drop_what_motion_does_not_show(found, partial(dataset_of, problem))
     tell("compare alternatives", 0.6)
     lagging = lagging_reference(found)
-    found, comparisons = _compare(found)
+    found, comparisons = compare(found)
     fitter, chosen, dataset = found.fitter, found.chosen, found.fitter.dataset
     after = residual(fitter, chosen)
     unnamed = _unnamed_pattern(found, after)
@@ -140,13 +140,18 @@ def _search(
     return restart_at_operating_point(found)
 
 
-def _compare(found: SearchState) -> tuple[SearchState, list[Comparison]]:
-    """Keep the causes that pass the comparison, and search for those that the dropped ones excluded."""
+def compare(found: SearchState) -> tuple[SearchState, list[Comparison]]:
+    """Keep the causes that pass the comparison, and search for those that the dropped ones excluded.
+
+    What is found so has to pass it, too, and what is left of it has to explain more than what was kept.
+    """
     kept, comparisons = compare_alternatives(found)
     if len(kept.excluded) > len(found.excluded):
         more = continue_search(kept)
         if len(more.chosen.members) > len(kept.chosen.members):
-            return compare_alternatives(more)
+            after, again = compare_alternatives(more)
+            if explains_more(after, kept):
+                return after, again
         # What follows is linearised where that search ended.
         kept = replace(kept, fitter=more.fitter)
     return kept, comparisons

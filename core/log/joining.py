@@ -148,7 +148,9 @@ def _split(part: _Part) -> list[_Part]:
 
 def _label(part: _Part, names: Sequence[str]) -> str:
     """Call columns by the first of them, where they are not all of a file."""
-    return part.name if len(names) == len(part.columns) else f"{names[0]} and {len(names) - 1} more"
+    if len(names) == len(part.columns):
+        return part.name
+    return names[0] if len(names) == 1 else f"{names[0]} and {len(names) - 1} more"
 
 
 def _instants(values: Samples) -> SampleMask:

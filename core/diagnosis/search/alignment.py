@@ -21,7 +21,7 @@ from ..thresholds.search import ALIGNMENT, SELECTION
 from .fitter import HypothesisFitter
 from .hypothesis import Candidate, Hypothesis
 from .likelihood_ratio import likelihood_ratio
-from .restarts import bic
+from .restarts import explains_more
 from .state import SearchState
 from .stepwise import continue_search
 
@@ -62,7 +62,7 @@ def restart_from_alignment(found: SearchState, later: Later) -> SearchState:
         return found
     other = continue_search(start, known=found.through)
     delayed = any(member.cause.id == TimeDelay.id for member in other.chosen.members)
-    return other if delayed and bic(other.chosen) > bic(found.chosen) + SELECTION.undecided else found
+    return other if delayed and explains_more(other, found) else found
 
 
 def _without_stand_ins(members: Sequence[Candidate]) -> tuple[Candidate, ...]:

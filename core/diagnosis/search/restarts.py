@@ -23,7 +23,7 @@ def restart_from_common_cause(found: SearchState) -> SearchState:
     """Give the better of a search and its restarts from one cause of the whole robot in place of several."""
     best = found
     for other in _restarts(found):
-        if bic(other.chosen) > bic(best.chosen) + SELECTION.undecided:
+        if explains_more(other, best):
             best = other
     return best
 
@@ -69,9 +69,14 @@ def restart_at_operating_point(found: SearchState) -> SearchState:
     now = fitter.fit(found.chosen.members, found.chosen)
     if likelihood_ratio(found.chosen, now) < -SELECTION.undecided:
         other = continue_search(SearchState(fitter, found.none, now, found.steps))
-        if bic(other.chosen) > bic(found.chosen) + SELECTION.undecided:
+        if explains_more(other, found):
             return other
     return found
+
+
+def explains_more(other: SearchState, than: SearchState) -> bool:
+    """Tell whether the end of a search is clearly better than that of another."""
+    return bic(other.chosen) > bic(than.chosen) + SELECTION.undecided
 
 
 def bic(hypothesis: Hypothesis) -> float:

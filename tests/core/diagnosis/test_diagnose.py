@@ -7,11 +7,17 @@ import numpy as np
 import pytest
 
 from tests.core.diagnosis.residual.worlds import EXAMPLE, world
-from tests.core.diagnosis.scenes import Effect, Scene, measured_arm
+from tests.core.diagnosis.scenes import Effect, Scene, fitter_of, measured_arm
+from veritorque.core.diagnosis import diagnose as diagnosing
+from veritorque.core.diagnosis.causes.registry import CAUSES
 from veritorque.core.diagnosis.checks.reservations import SetupDoubts, as_doubtful, with_reservations
 from veritorque.core.diagnosis.diagnose import diagnose
 from veritorque.core.diagnosis.problem import DiagnosisProblem
 from veritorque.core.diagnosis.result import Diagnosis
+from veritorque.core.diagnosis.search.hypothesis import Candidate
+from veritorque.core.diagnosis.search.restarts import bic
+from veritorque.core.diagnosis.search.state import SearchState
+from veritorque.core.diagnosis.search.stepwise import search_stepwise
 from veritorque.core.extension.cure import corrections, extended_base, input_note
 from veritorque.core.log.reader import read_log
 from veritorque.core.reduction.base import base_model
@@ -23,6 +29,10 @@ UNEVEN = 0.15
 
 def hidden(state):
     return UNEVEN * np.abs(state.velocity) * [0.0, 1.0, 0.0]
+
+
+def sprung(state):
+    return 3.0 * state.position * [1.0, 0.0, 0.0]
 
 
 def foreign(state):
@@ -188,3 +198,27 @@ def test_no_unnamed_pattern_is_reported_where_nothing_is_left():
 def test_the_explainable_variance_is_reported_for_every_joint(joint):
     (one,) = [part for part in diagnosed(None).predictable if part.joint == joint]
     assert one.interval[0] <= one.share <= one.interval[1]
+
+
+@cache
+def searched() -> SearchState:
+    return search_stepwise(fitter_of(measured_arm(lambda state: hidden(state) + sprung(state)), CAUSES))
+
+
+def of_members(members: tuple[Candidate, ...]) -> SearchState:
+    found = searched()
+    return replace(found, chosen=found.fitter.fit(members, found.none))
+
+
+@pytest.mark.parametrize("stays", ["both", "weaker"])
+def test_a_continued_search_replaces_what_was_kept_only_where_its_comparison_leaves_more(monkeypatch, stays):
+    found = searched()
+    one, other = found.chosen.members
+    weaker, stronger = sorted((of_members((one,)), of_members((other,))), key=lambda state: bic(state.chosen))
+    kept = replace(stronger, excluded=frozenset({("time_delay", (1,))}))
+    left = found if stays == "both" else weaker
+    answers = iter([(kept, []), (left, [])])
+    monkeypatch.setattr(diagnosing, "compare_alternatives", lambda _: next(answers))
+    monkeypatch.setattr(diagnosing, "continue_search", lambda _: found)
+    given = diagnosing.compare(found)[0].chosen.members
+    assert given == (found if stays == "both" else kept).chosen.members
