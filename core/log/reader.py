@@ -35,7 +35,8 @@ from .formats.table import Table
 from .model import ArraySource, Defect, JointLog, LogRows, LogSource, joined_rows
 from .pieces.choose import choose_rows
 from .pieces.missing import scarce_channels, scarce_defect
-from .pieces.survey import survey
+from .pieces.survey import Survey, survey
+from .pieces.turns import UnwrappedSource, wrapped_defects
 
 OPENERS: dict[Form, Callable[[Path], Table]] = {
     DELIMITED: open_delimited,
@@ -257,14 +258,12 @@ def _rearranged(table: Table, samples: int) -> tuple[Defect, ...]:
 
 
 def _log_of(name: str, source_of: Callable[[Layout], LogSource], layout: Layout, sha256: str) -> JointLog:
-    whole = source_of(layout)
-    found = survey(whole)
+    whole, found, wrapped = _followed(source_of(layout), layout)
     scarce = scarce_channels(found, layout)
     left_out = tuple(scarce_defect(found, layout, channel) for channel in scarce)
     if scarce:
         layout = layout.without(scarce)
-        whole = source_of(layout)
-        found = survey(whole)
+        whole, found, wrapped = _followed(source_of(layout), layout)
     chosen = choose_rows(whole, layout, found)
     source = chosen.source
     seen = examine(source, layout, chosen.row_in_file)
@@ -275,12 +274,23 @@ def _log_of(name: str, source_of: Callable[[Layout], LogSource], layout: Layout,
         rate_hz=seen.rate_hz,
         duration=seen.duration,
         segments=seen.segments,
-        defects=(*left_out, *chosen.done, *seen.defects),
+        defects=(*left_out, *wrapped, *chosen.done, *seen.defects),
         channels=tuple(channel.name for channel in layout.channels),
         ignored_columns=layout.ignored,
         sha256=sha256,
         bindings=layout.bindings,
     )
+
+
+def _followed(source: LogSource, layout: Layout) -> tuple[LogSource, Survey, list[Defect]]:
+    """Pass over the rows, and once more where angles are wrapped, without the turns."""
+    units = layout.si_units()["position"]
+    found = survey(source, units)
+    wrapped = found.turns.found
+    if not wrapped:
+        return source, found, []
+    followed = UnwrappedSource(source, wrapped)
+    return followed, survey(followed, units), wrapped_defects(wrapped)
 
 
 def _hash(path: Path) -> str:

@@ -144,6 +144,14 @@ def sampled_share(samples: int, at_most: int = SAMPLED_ROWS) -> float:
     return min(1.0, at_most / max(samples, 1))
 
 
+def usual_step(steps: Samples) -> float:
+    """Give the usual largest of the steps of one joint, or what its resolution makes of it."""
+    taken = steps[steps > 0.0]
+    if not len(taken):
+        return 0.0
+    return float(max(np.quantile(taken, USUAL_SHARE), GRID_STEPS / JUMP_FACTOR * taken.min()))
+
+
 def repeats_previous(values: Series) -> IncrementMask:
     """Mark the samples, from the second on, in which every row equals the sample before exactly."""
     same: IncrementMask = values[0, 1:] == values[0, :-1]

@@ -1,5 +1,6 @@
-"""Pass over a file's rows once: which lack a value or say nothing, and whether stamps ever step back."""
+"""Pass over a file's rows once: which lack a value or say nothing, whether stamps step back, and turns."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -8,6 +9,7 @@ from ...arrays import Indices, SampleMask, Samples
 from ..channels import TIME
 from ..model import LogRows, LogSource
 from .idle import IdleRows
+from .turns import Turns
 
 BLOCK_ROWS = 32_768
 LARGEST = 1e15
@@ -36,6 +38,8 @@ class Survey:
     """How many rows lack a value of a channel."""
     idle: IdleRows = field(default_factory=IdleRows)
     """Rows that say nothing."""
+    turns: Turns = field(default_factory=lambda: Turns(()))
+    """Whole turns by which angles leap."""
     _last: float = -np.inf
 
     @property
@@ -79,6 +83,7 @@ class Survey:
             self.marks[first : first + len(missing)] = missing
         self._order(rows.time)
         self.idle.take(rows, first)
+        self.turns.take(rows, first)
 
     def _order(self, stamps: Samples) -> None:
         known = stamps[np.isfinite(stamps)]
@@ -92,17 +97,17 @@ class Survey:
         known += [first + int(row) + 1 for row in np.flatnonzero(bad)[: FIRST_ROWS - len(known)]]
 
 
-def survey(source: LogSource) -> Survey:
-    """Read a source once.
+def survey(source: LogSource, units: Sequence[str]) -> Survey:
+    """Read a source once, with the SI unit of each joint's position.
 
     Examples
     --------
     >>> from veritorque.core.log.model import ArraySource
     >>> position = np.array([[0.0], [np.nan], [1.0]])
-    >>> survey(ArraySource(LogRows(np.arange(3.0), position))).counts
+    >>> survey(ArraySource(LogRows(np.arange(3.0), position)), ["rad"]).counts
     {('position', 0): 1}
     """
-    found = Survey(source.samples)
+    found = Survey(source.samples, turns=Turns(units))
     for start in range(0, source.samples, BLOCK_ROWS):
         found.take(source.rows(start, min(start + BLOCK_ROWS, source.samples)), start)
     return found
