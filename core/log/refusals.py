@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from difflib import get_close_matches
 
 from ..errors import LogError
-from .channels import CHANNELS, UNITS
+from .channels import CHANNELS, TIME, UNITS
 from .columns.mapping import ChannelRequest
 from .columns.plausible_units import readings_by_column
 from .formats.table import BY_NUMBER, Table
@@ -31,6 +31,28 @@ def contradiction_error(channel: str, columns: Sequence[str], unit: str) -> LogE
         f"the file says that {columns[0]!r} is in {unit}, and a default name stands for {si}",
         evidence={"columns": list(columns[:SHOWN_COLUMNS]), "unit_in_the_file": unit, "default": si},
         remedy=f'map {channel} with "unit": "{unit}", or with the unit that it truly has',
+    )
+
+
+def refuse_other_clock(table: Table) -> None:
+    """Refuse stamps of the default name that are too far apart for seconds, with what they could be.
+
+    Raises
+    ------
+    LogError
+        If another unit is plausible and seconds are not.
+    """
+    readings = readings_by_column(TIME, [TIME], table).get(TIME, [])
+    units = [reading.split(":")[0] for reading in readings]
+    second = next(iter(UNITS[TIME]))
+    if not units or second in units:
+        return
+    size = readings[0].split(": ")[1].split(";")[0]
+    raise LogError(
+        f"the unit of 'time' is not declared, and {size}, which is too far apart for {second}",
+        evidence={"columns": [TIME], "plausible_readings": readings},
+        remedy=f'declare it, as in {{"time": {{"column": "time", "unit": "{units[0]}"}}}}; with the unit '
+        f'"{second}" the log is read as it stands',
     )
 
 

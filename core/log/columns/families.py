@@ -15,6 +15,8 @@ _CHANNEL_WORDS = frozenset(word for channel in JOINT_CHANNELS for word in channe
 _CLOCK_WORDS = frozenset(CHANNELS[TIME].words)
 _COUNTER_WORDS = frozenset(("index", "idx", "count", "counter", "number", "nr", "no", "id"))
 """Words by which a name tells that it counts rows, whatever else it says."""
+MOTOR = "motor"
+"""Word of what is on the motor's side of a gear."""
 _MEASURED_WORDS = frozenset(("actual", "measured", "act", "meas", "msr", "ist", "feedback", "fbk"))
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
 _BRACKETS = re.compile(r"[\[({<][^\[\](){}<>]*[A-Za-z%°][^\[\](){}<>]*[\])}>]")
@@ -194,16 +196,16 @@ def clocks(names: Sequence[str]) -> list[str]:
     return [name for name in told if not name_words(name) & _COUNTER_WORDS]
 
 
-def by_plainness(stem: str) -> tuple[bool, int]:
-    """Sort names of one channel: measured before asked for, and fewer words about it before more.
+def by_plainness(stem: str) -> tuple[bool, bool, int]:
+    """Sort names of one channel: measured before asked for, the joint before the motor, few words first.
 
     Examples
     --------
-    >>> sorted(["target_q_", "q_d_", "q_"], key=by_plainness)
-    ['q_', 'q_d_', 'target_q_']
+    >>> sorted(["target_q_", "motor_q_", "q_d_", "q_"], key=by_plainness)
+    ['q_', 'q_d_', 'motor_q_', 'target_q_']
     """
     words = name_words(stem)
-    return bool(words & REFERENCE_WORDS), len(words - _MEASURED_WORDS)
+    return bool(words & REFERENCE_WORDS), MOTOR in words, len(words - _MEASURED_WORDS)
 
 
 def arm_of(stem: str) -> frozenset[str]:
@@ -215,7 +217,7 @@ def arm_of(stem: str) -> frozenset[str]:
     frozenset({'left'})
     """
     return frozenset(
-        name_words(stem) - _CHANNEL_WORDS - REFERENCE_WORDS - {"joint", "joints"} - _MEASURED_WORDS
+        name_words(stem) - _CHANNEL_WORDS - REFERENCE_WORDS - {"joint", "joints", MOTOR} - _MEASURED_WORDS
     )
 
 

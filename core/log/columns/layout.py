@@ -15,7 +15,7 @@ from ...errors import LogError
 from ..channels import CHANNELS, EFFORTS, JOINT_CHANNELS, TIME, UNITS, Channel
 from ..formats.table import Table
 from ..model import LogRows
-from ..refusals import absent_names, contradiction_error, missing_error, unit_error
+from ..refusals import absent_names, contradiction_error, missing_error, refuse_other_clock, unit_error
 from .binding import Binding
 from .mapping import ChannelRequest, LogMapping
 from .named_units import unit_called
@@ -133,6 +133,7 @@ def _bind_time(table: Table, mapping: LogMapping) -> Binding | None:
     else:
         request = _si_request((TIME,)) if TIME in table.names else None
         if request is not None and mapping.rate_hz is None:
+            refuse_other_clock(table)
             return _bind_default(TIME, request.columns, table)
     if request is not None and mapping.rate_hz is not None:
         raise LogError(

@@ -17,6 +17,7 @@ from ..model import Defect
 from .binding import Binding
 from .blocks import unnamed_channels
 from .families import (
+    MOTOR,
     along_arm,
     arm_of,
     by_plainness,
@@ -144,7 +145,7 @@ def _declared(
     What is named after the motor is on its side of a gear, whose ratio only the user knows.
     """
     known = UNITS[channel]
-    geared = channel in MOTOR_SIDE and "motor" in name_words(columns[0])
+    geared = channel in MOTOR_SIDE and MOTOR in name_words(columns[0])
     usual = next(iter(known)) if geared else _unit(channel, table, columns[0])
     units = [
         _said_unit(channel, table, column) or (_unit_of_slide(channel, table, column) if slides else usual)

@@ -183,19 +183,24 @@ def test_a_suggestion_is_made_only_where_it_leads_somewhere(tmp_path, fault):
         assert run("logs", "check", path, "--mapping", known).exit_code == Exit.DONE
 
 
-UNITS = {"time": ("ms", {"time_factor": 1000.0}), "position": ("deg", {"angle_factor": 57.29578})}
-
-
-@pytest.mark.parametrize("channel", UNITS)
-def test_default_names_in_other_units_are_told_with_the_mapping_that_corrects_them(tmp_path, channel):
-    unit, factors = UNITS[channel]
-    path = written(tmp_path / "scaled.csv", DEFAULT, **factors)
+def test_default_names_in_degrees_are_told_with_the_mapping_that_corrects_them(tmp_path):
+    path = written(tmp_path / "scaled.csv", DEFAULT, angle_factor=57.29578)
     seen = run("logs", "check", path)
     assert (seen.exit_code, "implausible_unit" in seen.stdout) == (Exit.DONE, True)
     assert run("logs", "check", path, "--fail-on-defects").exit_code == Exit.FOUND
     suggested = seen.stderr.partition("--mapping '")[2].partition("'")[0]
-    assert list(json.loads(suggested)) == [channel]
-    assert json.loads(suggested)[channel]["unit"] == unit
+    assert list(json.loads(suggested)) == ["position"]
+    assert json.loads(suggested)["position"]["unit"] == "deg"
+    mended = run("logs", "check", path, "--mapping", suggested, "--fail-on-defects")
+    assert (mended.exit_code, mended.stderr) == (Exit.DONE, "")
+
+
+def test_a_default_clock_in_milliseconds_is_refused_with_the_mapping_that_reads_it(tmp_path):
+    path = written(tmp_path / "scaled.csv", DEFAULT, time_factor=1000.0)
+    seen = run("logs", "check", path)
+    assert seen.exit_code == Exit.INPUT
+    suggested = seen.stderr.partition("--mapping '")[2].partition("'")[0]
+    assert json.loads(suggested)["time"] == {"column": "time", "unit": "ms"}
     mended = run("logs", "check", path, "--mapping", suggested, "--fail-on-defects")
     assert (mended.exit_code, mended.stderr) == (Exit.DONE, "")
 

@@ -256,6 +256,25 @@ def test_a_stretch_that_was_not_recorded_is_no_leap_of_a_joint(tmp_path):
 
 
 def test_too_few_rows_over_a_long_time_are_told_how_many_rows_it_takes(tmp_path):
-    error = refusal(swing(seconds=30.0, rate_hz=2.0), tmp_path)
+    error = refusal(swing(seconds=8.0, rate_hz=7.5), tmp_path)
     assert error.evidence == {"rows": 60, "at_least": 100}
     assert "100 rows" in error.remedy
+
+
+@pytest.mark.parametrize(("unit", "factor"), [("ms", 1e3), ("us", 1e6), ("ns", 1e9)])
+def test_stamps_of_the_default_name_that_are_no_seconds_ask_for_their_unit(unit, factor, tmp_path):
+    columns = swing()
+    columns["time"] = columns["time"] * factor
+    error = refusal(columns, tmp_path)
+    assert error.cause.startswith("the unit of 'time' is not declared")
+    (suggested,) = error.evidence["suggested_mappings"]
+    assert suggested["time"] == {"column": "time", "unit": unit}
+    log = read_log(tmp_path / "log.parquet", mapping={"time": suggested["time"]})
+    assert log.rate_hz == pytest.approx(250.0)
+
+
+def test_seconds_that_are_far_apart_are_read_where_they_are_declared(tmp_path):
+    columns = swing(seconds=400.0, rate_hz=3.0)
+    assert "too far apart for s" in refusal(columns, tmp_path).cause
+    log = read_log(tmp_path / "log.parquet", mapping={"time": {"column": "time", "unit": "s"}})
+    assert log.rate_hz == pytest.approx(3.0)

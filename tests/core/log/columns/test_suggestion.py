@@ -201,6 +201,15 @@ def test_what_is_measured_at_the_motor_leaves_the_gear_open(tmp_path):
     assert suggested["torque"] == {"columns": list(names[2:]), "unit": "N m", "scale": UNKNOWN}
 
 
+@pytest.mark.parametrize("torques", [("tau_1", "tau_2"), ("motor_torque_1", "motor_torque_2")])
+def test_what_is_measured_at_the_joint_goes_before_what_is_measured_at_the_motor(torques, tmp_path):
+    table = {f"motor_pos_{joint}": 99.0 * COLUMNS[f"q_{joint}"] for joint in (1, 2)}
+    table |= recorded("t", "joint_pos_1", "joint_pos_2", *torques)
+    suggested = check_log(write_csv(tmp_path / "log.csv", table)).suggestion
+    assert suggested["position"] == {"columns": ["joint_pos_1", "joint_pos_2"], "unit": "rad"}
+    assert suggested["torque"]["columns"] == list(torques)
+
+
 @pytest.mark.parametrize(
     ("names", "there", "absent"),
     [
