@@ -19,7 +19,7 @@ from .errors import OptionError, SolverError
 from .estimate.problem import Problem
 from .estimate.smoothing import with_smoothed_friction
 from .identification.admission import admit, known_log
-from .identification.doubts import contradictions
+from .identification.contradictions import contradictions
 from .identification.flexible_band import check_moved
 from .identification.identify import Fit, Progress, fit, judge, no_progress, refitted, scaled_progress
 from .identification.options import REPORT, IdentifyOptions, parse_diagnose_options, parse_options

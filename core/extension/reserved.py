@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from ..diagnosis.checks.reservations import SetupDoubts, with_reservations
-from ..identification.doubts import has_impossible_joint
+from ..identification.contradictions import has_impossible_joint
 from .result import Extension
 
 

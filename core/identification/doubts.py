@@ -1,14 +1,13 @@
 """List warnings about a successful identification, in sentences with numbers.
 
-An optimum exists even for wrong signs, units or gravity and for poor excitation. These show in the cost of
-the consistency constraint and in the residual.
+An optimum exists even where a log contradicts itself or the description, and for poor excitation.
 """
 
 from collections.abc import Sequence
 
 import numpy as np
 
-from ..arrays import JointVector, Mask
+from ..arrays import Mask
 from ..estimate.constraints import link_columns
 from ..estimate.plausibility import DENSEST
 from ..log.model import Defect
@@ -16,15 +15,11 @@ from ..regressor.factor import REGRESSOR
 from ..robot.extent import Extent
 from ..robot.joint_units import prismatic_joints
 from ..robot.plausibility import unit_warnings
-from ..validation.quality import quality
 from .choice import BIASED
 from .computed_torque import looks_computed
+from .contradictions import contradictions
 from .result import Identification
 
-HIGH_COST = 1.25
-"""Constraints that raise the squared error by more than a quarter contradict the log."""
-POOR_PREDICTION_PERCENT = 50.0
-HELD_OUT_OVER_FITTED = 2.0
 EXACT_PERCENT = 0.1
 """Error that no sensor of torque tells from none."""
 MUCH_WORSE = 2.0
@@ -52,8 +47,6 @@ DOUBTFUL = (
 LEAST_SQUARES = ("sdp", "wls", "irls", "ols")
 """Estimators that noise of columns biases."""
 _DOES_NOT_EXCITE = "The motion does not excite"
-CERTAIN = 3.0
-"""A value this many standard deviations from zero has a significant sign."""
 FAR_FROM_DESCRIBED = 10.0
 """Factor between the torques of the identified and of the described bodies that is another unit's, a gear's
 or a placeholder's. Described masses are seldom wrong by more than two or three. Set by hand."""
@@ -72,11 +65,6 @@ def doubts(found: Identification) -> tuple[str, ...]:
         *_attenuated(found),
         *_not_excited(found),
     )
-
-
-def contradictions(found: Identification) -> tuple[str, ...]:
-    """List the warnings that say that the model does not fit the log."""
-    return (*_cost(found), *_signs(found), *_unexplained(found), *_held_out(found))
 
 
 def _description(found: Identification) -> list[str]:
@@ -115,18 +103,6 @@ def _attenuated(found: Identification) -> list[str]:
         f"inertia of {joints}. Use estimator cloe, piv or ml, or a lower filter.cutoff_hz"
     )
     return [sentence]
-
-
-def has_impossible_joint(found: Identification) -> bool:
-    """Tell whether only physically inconsistent bodies could follow a joint's torque well enough.
-
-    The constraint then costs most of it: robot and log disagree, and not in a small correction.
-    """
-    costly = _joint_cost(found) > HIGH_COST
-    judged = found.validation or found.fit
-    return any(
-        costly[score.joint - 1] and quality(score.nrmse_of_rms_percent) == "failed" for score in judged
-    )
 
 
 def _logs(found: Identification) -> list[str]:
@@ -187,20 +163,6 @@ def _summarised(alike: Sequence[Defect]) -> str:
     return alike[0].statement.rstrip(".") + (f" (likewise on joints {others})" if others else "")
 
 
-def _cost(found: Identification) -> list[str]:
-    estimate = found.estimate
-    cost = estimate.cost_ratio
-    if cost <= HIGH_COST:
-        return []
-    joints = ", ".join(str(joint + 1) for joint in np.flatnonzero(_joint_cost(found) > HIGH_COST))
-    sentence = (
-        f"The consistency constraint raises the squared error by a factor of {cost:.3g} over least "
-        f"squares, mainly on joints {joints or 'none alone'}: the log and the description may disagree "
-        "in the sign of a torque, in units or in gravity, or the torque was measured elsewhere than modelled"
-    )
-    return [sentence]
-
-
 def _sizes(found: Identification) -> list[str]:
     """List the links whose bound on size or density contradicts the log."""
     sentences = []
@@ -220,58 +182,6 @@ def _sizes(found: Identification) -> list[str]:
 def _ball(extent: Extent) -> str:
     centre = ", ".join(f"{value:.3g}" for value in extent.ball.centre)
     return f"{extent.ball.radius:.3g} m of ({centre}) m"
-
-
-def _joint_cost(found: Identification) -> JointVector:
-    observation, estimate = found.observation, found.estimate
-    pairs = zip(observation.joint_factors(), observation.columns_of, strict=True)
-    return np.array(
-        [
-            factor.residual_square(estimate.base[columns])
-            / max(
-                factor.residual_square(estimate.unconstrained[columns]), 1e-12 * factor.torque_square, 1e-300
-            )
-            for factor, columns in pairs
-        ]
-    )
-
-
-def _signs(found: Identification) -> list[str]:
-    # Least squares leaves a smaller residual than the estimate that the deviations were taken from.
-    deviation = found.precision.standard_deviation / np.sqrt(found.estimate.cost_ratio)
-    known = deviation > 0.0
-    ratio = np.divide(found.estimate.unconstrained, deviation, out=np.zeros_like(deviation), where=known)
-    negative = {
-        found.base.names[row]
-        for row in range(len(found.base.kept))
-        if found.base.parameter(row).symbol in {"FV", "FC"} and ratio[row] < -CERTAIN
-    }
-    joints = sorted({name[2:] for name in negative}, key=int)
-    both = [joint for joint in joints if {f"FV{joint}", f"FC{joint}"} <= negative]
-    return [
-        f"Least squares finds negative viscous and Coulomb friction on joint {joint}, each more than "
-        f"{CERTAIN:g} standard deviations below zero: its torque may have the opposite sign"
-        for joint in both
-    ]
-
-
-def _unexplained(found: Identification) -> list[str]:
-    return [
-        f"The model leaves {score.nrmse_of_rms_percent:.3g} % of joint {score.joint}'s RMS torque unexplained"
-        for score in found.fit
-        if score.nrmse_of_rms_percent > POOR_PREDICTION_PERCENT
-    ]
-
-
-def _held_out(found: Identification) -> list[str]:
-    fitted, held_out = found.fit_total_percent, found.validation_total_percent
-    if not found.validation or held_out <= HELD_OUT_OVER_FITTED * fitted:
-        return []
-    sentence = (
-        f"The error on held-out data ({held_out:.3g} %) is {held_out / fitted:.3g} times the error on fitted "
-        f"data ({fitted:.3g} %): the held-out motion may excite what the fitted motion does not"
-    )
-    return [sentence]
 
 
 def _not_excited(found: Identification) -> list[str]:

@@ -21,7 +21,7 @@ from veritorque.core.conflicts.trial import Trials
 from veritorque.core.dynamics.model import standard_model
 from veritorque.core.dynamics.terms.kinematic_error import with_entry
 from veritorque.core.errors import SolverError
-from veritorque.core.identification.doubts import has_impossible_joint
+from veritorque.core.identification.contradictions import has_impossible_joint
 from veritorque.core.log.columns.assignment import Assignment, assigned
 from veritorque.core.log.model import whole_rows
 from veritorque.core.log.reader import log_from_arrays

@@ -78,6 +78,16 @@ def test_a_model_that_explains_little_is_doubted(world):
     assert any("unexplained" in one for one in _doubts(*world, terms=["viscous"]))
 
 
+def test_torques_of_another_run_are_said_to_be_none_of_these_positions_and_not_to_be_computed(world):
+    robot, rows = world
+    model = standard_model(robot)
+    found = _doubts(robot, rows, torque=model.torque(true_parameters(model), swing(2, seed=7)))
+    (doubt,) = [one for one in found if "unexplained" in one]
+    assert "of every joint's RMS torque" in doubt
+    assert "different runs" in doubt
+    assert not [one for one in found if "no friction" in one]
+
+
 @pytest.mark.parametrize(
     ("factor", "said"), [(1e5, "in whole numbers"), (1e3, "read as mN m it would be")], ids=["counts", "mN m"]
 )
