@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .conflicts.check import Conflicts, check
-from .conflicts.doubt import is_doubtful
+from .conflicts.doubt import is_doubtful, is_worse_than_none
 from .document.conflicts import because_of, conflict_rows, with_conflicts
 from .document.identification import identification_document
 from .document.version import product_version
@@ -143,10 +143,7 @@ def _settle(
 def _corrected(
     task: _Task, problem: Problem, tell: Progress, reference: Reference | None = None, *, doubted: bool
 ) -> tuple[Conflicts, _Settled | None]:
-    """Look for what robot and logs disagree in; correct it and fit again, or give None where nothing is.
-
-    Against a reference nothing is corrected: the reference is of the robot as it is described.
-    """
+    """Correct what robot and logs disagree in, and fit again; None if nothing, or against a reference."""
     asked, options = task.asked, task.options
     tell("check", 0.62)
     conflicts = check(problem, asked.logs, options.terms, doubted=doubted)
@@ -160,6 +157,8 @@ def _corrected(
         tell("correct", 0.63 + 0.05 * done)
 
     again = fit(_prepare(corrected, correct), options, correct)
+    if is_worse_than_none(again):
+        return conflicts.as_unsure, None
     return conflicts, _Settled(corrected, again, replace(conflicts, applied=True))
 
 

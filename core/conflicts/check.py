@@ -1,6 +1,6 @@
 """Check a set-up: whether the stamps agree with the velocities, and which correction a doubtful fit needs."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from ..estimate.problem import Problem
@@ -45,6 +45,13 @@ class Conflicts:
     def confidence(self) -> float:
         """Give the probability of the corrections that were applied; 1 where none was."""
         return min((step.confidence for step in self.found if self.applied), default=1.0)
+
+    @property
+    def as_unsure(self) -> "Conflicts":
+        """Give the same where what was found is no more likely than not."""
+        from .path import unsure
+
+        return replace(self, found=unsure(self.found))
 
     @property
     def doubtful_causes(self) -> frozenset[str]:

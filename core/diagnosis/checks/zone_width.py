@@ -81,7 +81,7 @@ def _causes_on(fitter: HypothesisFitter, found: Hypothesis, joints: set[int]) ->
 def _refined(zone: DeadZone, more: float, deviation: float) -> DeadZone | None:
     """Weigh the width that zeros show with the model's, N m or N; None where the model clearly has none.
 
-    Where torques lack nothing, zeros are those of lost samples.
+    Where torques lack nothing, zeros are those of lost samples. A width below its deviation is none.
     """
     lacking = zone.shortfall + more
     clear = lacking > SAMPLE_CHECKS.dead_clearness * deviation
@@ -90,8 +90,8 @@ def _refined(zone: DeadZone, more: float, deviation: float) -> DeadZone | None:
     if deviation < zone.deviation and not clear:
         return None
     counted, fitted = zone.deviation**-2, deviation**-2
-    mean = (counted * zone.half + fitted * lacking) / (counted + fitted)
-    return replace(zone, half=mean, shortfall=mean, deviation=(counted + fitted) ** -0.5)
+    mean, scatter = (counted * zone.half + fitted * lacking) / (counted + fitted), (counted + fitted) ** -0.5
+    return replace(zone, half=mean, shortfall=mean, deviation=scatter) if mean > scatter else None
 
 
 def _judged(zone: DeadZone, more: float, deviation: float, *, clear: bool) -> DeadZone | None:

@@ -14,13 +14,16 @@ from tests.core.diagnosis.causes.test_sample_checks import (
     with_torque,
 )
 from veritorque.core.diagnosis.causes.torque_dead_zone import dead_zones
+from veritorque.core.diagnosis.checks import zone_width
 from veritorque.core.diagnosis.checks.cut_torque import cut_channels
 from veritorque.core.diagnosis.checks.samples import check_samples
+from veritorque.core.diagnosis.checks.zone_width import refined_zones
 from veritorque.core.diagnosis.problem import DiagnosisProblem
 from veritorque.core.identification.reference import Reference
 from veritorque.core.log.model import JointLog
 from veritorque.core.reduction.base import base_model
 from veritorque.core.regressor.columns import all_columns
+from veritorque.core.signals.dead_zone import DeadZone
 
 SHRINKS = "too little by as much"
 
@@ -73,6 +76,18 @@ def test_a_zone_is_as_wide_beside_another_effect_of_the_torque():
         problem(with_torque(lambda torque: ZONES[SHRINKS][0](torque * (1.0 - 0.1 * (torque / 42.0) ** 2))))
     )
     assert [zone.half for zone in asked.zones] == pytest.approx([DEAD], rel=0.03)
+
+
+@pytest.mark.parametrize(("more", "deviation", "zones"), [(-0.1, 0.05, 0), (-0.08, 0.4, 0), (0.0, 0.02, 1)])
+def test_a_zone_no_wider_than_its_deviation_is_none(monkeypatch, more, deviation, zones):
+    """Zeros of a channel that is none of a torque tell a width that the model does not know either."""
+    monkeypatch.setattr(zone_width, "_causes_on", lambda *_: [])
+    monkeypatch.setattr(zone_width, "_lacking", lambda *_: [(more, deviation)])
+    found = check_samples(problem(recorded()))[2]
+    counted = DeadZone(0, 0, 0.1, 0.3, 0.1, 50, 0.1, 1e-9)
+    refined = refined_zones([counted], found.dataset, (found, found.fit(())))
+    assert len(refined) == zones
+    assert all(zone.half > zone.deviation for zone in refined)
 
 
 def test_of_two_logs_the_one_with_a_zone_is_restored():
