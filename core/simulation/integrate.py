@@ -53,6 +53,7 @@ class Integrator:
     a compiled form damp so strongly, the scheme stays stable, and its order whatever they do."""
     longest_step: float = LONGEST_STEP
 
+    @np.errstate(over="ignore", invalid="ignore")
     def advance(self, states: States, number: int) -> States:
         """Go from the drive's instant `number` to the next one.
 
@@ -66,7 +67,7 @@ class Integrator:
             count = len(states.time)
             passed, to_go = np.full(count, part / parts), np.full(count, 1.0 / parts)
             states = self._part(states, Stride(number, passed, to_go, None))
-        _check(states)
+        _check(states)  # also what overflowed
         return states
 
     @cached_property

@@ -1,5 +1,6 @@
 """The integrator against laws of mechanics: its order, energy, power, stiff damping and divergence."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -8,8 +9,10 @@ import pytest
 from tests.core.simulation.worlds import block, mechanism, pendulum, play
 from tests.tools import random_bodies, random_robot
 from veritorque.core.dynamics.newton_euler import inverse_dynamics
+from veritorque.core.dynamics.terms.friction_viscous_nonlinear import NonlinearViscous
 from veritorque.core.errors import SolverError
 from veritorque.core.signals.state import MotionState
+from veritorque.core.simulation.mechanism import mechanism_of
 
 
 def _arm(**drives):
@@ -113,6 +116,15 @@ def test_a_motion_that_diverges_is_reported_with_its_time_and_joint():
         play(block(), 0.0, 0.0, 1.0, 100, lambda time: np.array([1e6]))
     assert refusal.value.evidence["joint"] == 1
     assert 0.01 < refusal.value.evidence["time"] < 0.05
+
+
+def test_friction_that_drives_with_a_power_of_speed_is_reported_as_a_motion_that_diverges():
+    """Within a step the power is beyond all numbers."""
+    plain = block().model
+    model = replace(plain, terms=(*plain.terms, NonlinearViscous(1, 60.0)))
+    pushed = mechanism_of(model, np.array([*block().parameters, -1.0]))
+    with pytest.raises(SolverError, match=r"diverges|cannot be accelerated"):
+        play(pushed, 0.0, 2.0, 1.0, 100)
 
 
 def test_a_robot_with_negative_mass_is_reported_as_one_that_cannot_be_accelerated():
