@@ -49,7 +49,7 @@ def refuse_other_clock(table: Table) -> None:
         return
     size = readings[0].split(": ")[1].split(";")[0]
     raise LogError(
-        f"the unit of 'time' is not declared, and {size}, which is too far apart for {second}",
+        f"the unit of 'time' is not declared, and {size}, too long for {second}",
         evidence={"columns": [TIME], "plausible_readings": readings},
         remedy=f'declare it, as in {{"time": {{"column": "time", "unit": "{units[0]}"}}}}; with the unit '
         f'"{second}" the log is read as it stands',

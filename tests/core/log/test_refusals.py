@@ -275,6 +275,6 @@ def test_stamps_of_the_default_name_that_are_no_seconds_ask_for_their_unit(unit,
 
 def test_seconds_that_are_far_apart_are_read_where_they_are_declared(tmp_path):
     columns = swing(seconds=400.0, rate_hz=3.0)
-    assert "too far apart for s" in refusal(columns, tmp_path).cause
+    assert "too long for s" in refusal(columns, tmp_path).cause
     log = read_log(tmp_path / "log.parquet", mapping={"time": {"column": "time", "unit": "s"}})
     assert log.rate_hz == pytest.approx(3.0)
