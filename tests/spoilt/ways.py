@@ -279,7 +279,9 @@ def scattered_stamps(table: Table, rng: np.random.Generator) -> Table:
     """Let stamps scatter about the instants of their rows."""
     step = np.median(np.abs(np.diff(table.time)))
     scatter = rng.uniform(0.01, 0.3) * step * rng.uniform(-1.0, 1.0, len(table.time))
-    return replace(table, time=table.time + scatter).telling("timestamp_jitter")
+    # A row that was written twice is one that was missed, once its stamp differs.
+    doubled = ("dropped_samples",) if np.any(np.diff(table.time) == 0.0) else ()
+    return replace(table, time=table.time + scatter).telling("timestamp_jitter", *doubled)
 
 
 def rounded_stamps(table: Table, rng: np.random.Generator) -> Table:
