@@ -2,7 +2,8 @@
 
 A step of a whole turn, but for what the joint moves meanwhile, is none of its motion: the angle of a revolute
 joint is the same with or without it. What is left of such a step has to be no jump itself, while the step is
-one; so an angle that rests where it is wrapped, and comes back in the next row, is followed as well.
+one; so an angle that rests where it is wrapped, and comes back in the next row, is followed as well. A
+wrapped angle spans no more than one turn: steps of 6.28 degrees that were declared as rad are none.
 """
 
 from collections.abc import Sequence
@@ -16,6 +17,8 @@ from ..model import Defect, LogRows, LogSource
 
 TURNS = (2.0 * np.pi, 360.0)
 """A turn in rad, and one of degrees that were declared as rad."""
+BORDER = 1.001
+"""Of a turn: what a wrapped angle spans at most, with its rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,8 +42,10 @@ class Turns:
     """
 
     units: Sequence[str]
-    _rows: dict[int, list[Indices]] = field(default_factory=dict)
-    _added: dict[int, list[Samples]] = field(default_factory=dict)
+    _leaps: dict[int, list[list[Wrapped]]] = field(default_factory=dict)
+    """By joint and kind of turn."""
+    _low: dict[int, float] = field(default_factory=dict)
+    _high: dict[int, float] = field(default_factory=dict)
     _last: dict[int, float] = field(default_factory=dict)
 
     def take(self, rows: LogRows, first: int) -> None:
@@ -55,34 +60,41 @@ class Turns:
         known = np.flatnonzero(np.isfinite(angles))
         if not len(known):
             return
-        self._last[joint] = float(angles[known[-1]])
-        added = _added(np.diff(angles[known]))
-        if added is not None:
+        own = angles[known]
+        self._low[joint] = min(self._low.get(joint, np.inf), float(own.min()))
+        self._high[joint] = max(self._high.get(joint, -np.inf), float(own.max()))
+        self._last[joint] = float(own[-1])
+        steps = np.diff(own)
+        if np.abs(steps).max(initial=0.0) <= 0.5 * TURNS[0]:
+            return
+        leaps = self._leaps.setdefault(joint, [[] for _ in TURNS])
+        for found, turn in zip(leaps, TURNS, strict=True):
+            added = _added(steps, turn)
             at = np.flatnonzero(added)
-            self._rows.setdefault(joint, []).append(first + known[at + 1])
-            self._added.setdefault(joint, []).append(added[at])
+            found.append(Wrapped(first + known[at + 1], added[at]))
 
     @property
     def found(self) -> dict[int, Wrapped]:
-        """Give the wrapped joints, from 0."""
-        return {
-            joint: Wrapped(np.concatenate(rows), np.concatenate(self._added[joint]))
-            for joint, rows in self._rows.items()
-        }
+        """Give the wrapped joints, from 0: their angles stay within one turn."""
+        found = {}
+        for joint, leaps in self._leaps.items():
+            span = self._high[joint] - self._low[joint]
+            parts = next((own for own, turn in zip(leaps, TURNS, strict=True) if span <= BORDER * turn), [])
+            if any(len(part.rows) for part in parts):
+                found[joint] = Wrapped(
+                    np.concatenate([part.rows for part in parts]),
+                    np.concatenate([part.added for part in parts]),
+                )
+        return found
 
 
-def _added(steps: Samples) -> Samples | None:
-    """Give the whole turns that take the place of leaps; None where there are none."""
-    if np.abs(steps).max(initial=0.0) <= 0.5 * TURNS[0]:
-        return None
-    for turn in TURNS:
-        added = -turn * np.round(steps / turn)
-        left = np.abs(steps + added)
-        jump = JUMP_FACTOR * usual_step(left)
-        leaps = (np.abs(added) == turn) & (left <= jump)
-        if jump < 0.5 * turn and leaps.any():
-            return np.where(leaps, added, 0.0)
-    return None
+def _added(steps: Samples, turn: float) -> Samples:
+    """Give the whole turns that take the place of leaps; zero elsewhere."""
+    added = -turn * np.round(steps / turn)
+    left = np.abs(steps + added)
+    jump = JUMP_FACTOR * usual_step(left)
+    leaps = (np.abs(added) == turn) & (left <= jump)
+    return np.where(leaps, added, 0.0) if jump < 0.5 * turn else np.zeros(len(steps))
 
 
 class UnwrappedSource:

@@ -72,12 +72,15 @@ def test_angles_are_followed_between_the_rows_that_have_them(tmp_path):
 @pytest.mark.parametrize("row", [32_764, 32_766, 32_767, 32_768, 32_769, 32_772])
 def test_a_turn_where_the_log_is_read_piece_by_piece_is_taken_out_once(row, tmp_path):
     columns = swing(seconds=200.0)
-    before = columns["q_2"].copy()
-    columns["q_2"][row:] += TURN
-    log = read_log(write_parquet(tmp_path / "log.parquet", columns))
-    assert [one.count for one in log.defects if one.kind == "wrapped_angle"] == [1]
-    np.testing.assert_allclose(whole_rows(log).position[:, 1], before, atol=1e-9)
-    np.testing.assert_allclose(log.source.rows(row - 3, row + 3).position[:, 1], before[row - 3 : row + 3])
+    turning = np.linspace(0.0, 2.0 * TURN, 50_000)
+    turning += 2.0 * TURN + 1e-6 - turning[row]
+    before = turning % TURN
+    log = read_log(write_parquet(tmp_path / "log.parquet", columns | {"q_2": before}))
+    leaps = np.flatnonzero(np.abs(np.diff(before)) > 3.0)
+    assert [one.count for one in log.defects if one.kind == "wrapped_angle"] == [len(leaps)]
+    np.testing.assert_allclose(moved(log)[:, 1], np.diff(turning), atol=1e-9)
+    part = log.source.rows(row - 3, row + 3).position[:, 1]
+    np.testing.assert_allclose(np.diff(part), np.diff(turning[row - 3 : row + 3]), atol=1e-9)
 
 
 def test_a_reference_that_is_wrapped_elsewhere_is_taken_to_the_same_turn():
@@ -105,6 +108,18 @@ def test_degrees_declared_as_rad_that_move_by_six_a_row_stay_as_they_are(tmp_pat
     log = read_log(write_csv(tmp_path / "log.csv", columns | {"q_2": fast}))
     assert "wrapped_angle" not in {one.kind for one in log.defects}
     np.testing.assert_allclose(whole_rows(log).position[:, 1], fast)
+
+
+@pytest.mark.parametrize("step", [6.2, 6.28, 6.35])
+def test_zeros_before_a_log_of_degrees_that_were_declared_as_rad_are_no_turn(step, tmp_path):
+    """One turn less in rad is 6.28 degrees off."""
+    columns = {name: values.copy() for name, values in swing().items()}
+    columns["q_2"] = np.degrees(columns["q_2"] - columns["q_2"][30]) + step
+    for name in columns.keys() - {"time"}:
+        columns[name][:30] = 0.0
+    log = read_log(write_csv(tmp_path / "log.csv", columns))
+    assert "wrapped_angle" not in {one.kind for one in log.defects}
+    np.testing.assert_allclose(whole_rows(log).position[:, 1], columns["q_2"][30:])
 
 
 @pytest.mark.parametrize("glitch", [5.8, -6.0])
