@@ -23,10 +23,10 @@ class Defect:
     ----------
     kind
         ``rearranged, missing_values, doubled_rows, blank_rows, lost_values, bad_end, time_restarts,
-        shuffled_rows, broken_stamps, wrapped_angle, gap, jitter, repeated_rows, stuck_channel, filled_rows,
-        replayed_rows, unpowered, outliers, saturation, quantisation, standstill, short, slow_rate,
-        one_direction, velocity_mismatch, position_is_reference, shared_position, unsigned_torque,
-        unknown_sign, implausible_unit, missing_torque``.
+        shuffled_rows, broken_stamps, rounded_stamps, wrapped_angle, gap, jitter, repeated_rows,
+        stuck_channel, filled_rows, replayed_rows, unpowered, outliers, saturation, quantisation, standstill,
+        short, slow_rate, one_direction, velocity_mismatch, position_is_reference, shared_position,
+        unsigned_torque, unknown_sign, implausible_unit, missing_torque``.
     channel
         ``time, position, torque`` ...; ``file`` where it concerns the form of the file.
     joint

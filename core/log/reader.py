@@ -34,6 +34,7 @@ from .formats.recording import open_bag, open_mcap, open_sqlite_bag
 from .formats.table import Table
 from .model import ArraySource, Defect, JointLog, LogRows, LogSource, joined_rows
 from .pieces.choose import choose_rows
+from .pieces.even_clock import with_even_clock
 from .pieces.missing import scarce_channels, scarce_defect
 from .pieces.survey import Survey, survey
 from .pieces.turns import UnwrappedSource, wrapped_defects
@@ -266,6 +267,7 @@ def _log_of(name: str, source_of: Callable[[Layout], LogSource], layout: Layout,
         whole, found, wrapped = _followed(source_of(layout), layout)
     chosen = choose_rows(whole, layout, found)
     source = chosen.source
+    source, rounded = with_even_clock(source) if found.shared else (source, [])
     seen = examine(source, layout, chosen.row_in_file)
     return JointLog(
         name=name,
@@ -274,7 +276,7 @@ def _log_of(name: str, source_of: Callable[[Layout], LogSource], layout: Layout,
         rate_hz=seen.rate_hz,
         duration=seen.duration,
         segments=seen.segments,
-        defects=(*left_out, *wrapped, *chosen.done, *seen.defects),
+        defects=(*left_out, *wrapped, *chosen.done, *rounded, *seen.defects),
         channels=tuple(channel.name for channel in layout.channels),
         ignored_columns=layout.ignored,
         sha256=sha256,

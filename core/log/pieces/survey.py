@@ -31,6 +31,8 @@ class Survey:
     """Rows that lack one of their values; None where there are none."""
     backwards: bool = False
     """Whether a stamp is smaller than one before it."""
+    shared: bool = False
+    """Whether a stamp is that of the row before."""
     counts: dict[Column, int] = field(default_factory=dict)
     first_rows: dict[Column, list[int]] = field(default_factory=dict)
     """Numbers of the first rows, from 1."""
@@ -88,7 +90,9 @@ class Survey:
     def _order(self, stamps: Samples) -> None:
         known = stamps[np.isfinite(stamps)]
         if len(known):
-            self.backwards = self.backwards or bool(np.any(np.diff(known, prepend=self._last) < 0.0))
+            steps = np.diff(known, prepend=self._last)
+            self.backwards = self.backwards or bool(np.any(steps < 0.0))
+            self.shared = self.shared or bool(np.any(steps == 0.0))
             self._last = float(known[-1])
 
     def _count(self, column: Column, bad: SampleMask, first: int) -> None:
