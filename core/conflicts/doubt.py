@@ -11,8 +11,7 @@ from .thresholds import DOUBT
 
 def is_doubtful(fit: Fit, logs: tuple[JointLog, ...]) -> bool:
     """Tell whether a plain fit or the numbers of a log are in doubt."""
-    doubted = fit.estimate.cost_ratio > DOUBT.cost or _leaves(fit, DOUBT.unexplained)
-    return doubted or any(map(_has_doubtful_unit, logs))
+    return fit.estimate.cost_ratio > DOUBT.cost or _unexplained(fit) or any(map(_has_doubtful_unit, logs))
 
 
 def is_worse_than_none(corrected: Fit) -> bool:
@@ -21,7 +20,7 @@ def is_worse_than_none(corrected: Fit) -> bool:
     Trials weight joints by what each leaves. Where a correction made one joint's torque tiny beside others,
     bodies that these need give it many times as much, and such a trial is no robot's.
     """
-    return _leaves(corrected, 1.0)
+    return _leaves(corrected, 1.0, None)
 
 
 def _has_doubtful_unit(log: JointLog) -> bool:
@@ -29,12 +28,17 @@ def _has_doubtful_unit(log: JointLog) -> bool:
     return any(defect.kind == "implausible_unit" and defect.channel != "time" for defect in log.defects)
 
 
-def _leaves(fit: Fit, share: float) -> bool:
-    """Tell whether a share of a joint's RMS torque is left, on fitted or on held-out blocks."""
-    observation, limit = fit.observation, share**2
+def _unexplained(fit: Fit) -> bool:
+    """Tell whether much is left of a joint's torque, on fitted or on held-out blocks."""
+    parts = fit.observation.parts(fit.problem.held_out)
+    return any(_leaves(fit, DOUBT.unexplained, blocks) for blocks in parts if blocks)
+
+
+def _leaves(fit: Fit, share: float, blocks: tuple[int, ...] | None) -> bool:
+    """Tell whether a share of a joint's RMS torque is left on some blocks, or on all."""
     return any(
-        factor.residual_square(fit.estimate.base[columns]) > limit * factor.torque_square
-        for blocks in observation.parts(fit.problem.held_out)
-        if blocks
-        for factor, columns in zip(observation.joint_factors(blocks), observation.columns_of, strict=True)
+        factor.residual_square(fit.estimate.base[columns]) > share**2 * factor.torque_square
+        for factor, columns in zip(
+            fit.observation.joint_factors(blocks), fit.observation.columns_of, strict=True
+        )
     )

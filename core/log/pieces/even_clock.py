@@ -51,9 +51,8 @@ def with_even_clock(source: LogSource) -> tuple[LogSource, list[Defect]]:
     >>> round(even.step, 5), rounded.count
     (0.004, 119)
     """
-    stamps = np.concatenate(
-        [source.rows(first, first + BLOCK_ROWS).time for first in range(0, source.samples, BLOCK_ROWS)]
-    )
+    blocks = [source.rows(first, first + BLOCK_ROWS).time for first in range(0, source.samples, BLOCK_ROWS)]
+    stamps = np.concatenate([np.zeros(0), *blocks])
     steps = np.diff(stamps)
     shared = int(np.count_nonzero(steps == 0.0))
     clock = _line(stamps) if shared and steps.min() == 0.0 < steps.max() else None

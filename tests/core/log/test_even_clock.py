@@ -53,3 +53,10 @@ def test_stamps_that_are_rounded_and_differ_stay_as_they_are(tmp_path):
     columns = rounded(3)
     log = read_log(write_csv(tmp_path / "log.csv", columns))
     np.testing.assert_array_equal(whole_rows(log).time, columns["time"])
+
+
+@pytest.mark.parametrize("rows", [1, 2, 3000])
+def test_a_log_that_is_one_row_again_and_again_is_refused(rows, tmp_path):
+    columns = {name: np.repeat(values[:1], rows) for name, values in swing().items()}
+    with pytest.raises(LogError):
+        read_log(write_csv(tmp_path / "log.csv", columns))
